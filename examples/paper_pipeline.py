@@ -34,7 +34,7 @@ def main() -> None:
 
     # One parameter at a time, about the design that the study ended with.
     objective = find_objective("fitness")
-    request = Request(Space.default(), robot_model(arguments.model))
+    request = Request(Space.default(), robot_model(arguments.model), objective)
     with local_pool() as pool, StudyStore.write(None, request.identity([])) as store:
         evaluator = Evaluator(request, store, pool)
         swept = sweep(evaluator, jumpcad.load_design("best-bo"), arguments.points)

@@ -20,7 +20,8 @@ from jumpcad.checks.interference import pieces_of
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import evaluate
-from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.exporters.loop_file import write_loop
+from jumpcad.exporters.urdf import write_urdf
 from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.mechanism.poses import body_poses

@@ -214,7 +214,7 @@ def test_a_robot_from_a_drawer_keeps_all_limits_and_costs_less_than_60_euros(dra
     """Springs and motor as callipers and multimeter tell; what a bundle keeps of the workshop is read as the same."""
     shop = load_workshop(written(drawer))
     robot = build(KENAN, shop)
-    assert not errors(check(robot))
+    assert {finding.severity for finding in check(robot)} == {"info"}
     assert simulate(robot).verdict == "jump"
     cost = bill_of_materials(robot).cost_eur
     assert cost is not None

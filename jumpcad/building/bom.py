@@ -6,7 +6,7 @@ stay blank.
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
@@ -14,6 +14,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.files.csv_text import to_csv
+from jumpcad.parts.mass_line import MassLine
 from jumpcad.plural import counted
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.foot.pads import printed_pads
@@ -49,24 +50,18 @@ COLUMNS = (
     "kind", "item", "quantity", "ordered", "material", "grams_each", "grams", "mass_from", "eur_each", "eur",
     "print_time_s", "price_from",
 )  # fmt: skip
+MASSES = tuple(field.name for field in fields(MassLine))
 OWN, THERE = "workshop", "there already"
 
 
 @dataclass(frozen=True)
-class BillLine:
+class BillLine(MassLine):
     """One line: mass, price and printing time are those of one piece.
 
-    `kind` is `printed`, `pad` (printed of a soft material) or `bought`. The robot has `quantity` pieces; what it costs
-    are those that are `ordered`, in packs of `pack`. `price_from` is `workshop`, `there already` (price 0, none
-    is ordered), a shop with its date, or `estimate`.
+    What it costs are the pieces that are `ordered`, in packs of `pack`. `price_from` is `workshop`, `there already`
+    (price 0, none is ordered), a shop with its date, or `estimate`.
     """
 
-    kind: str
-    name: str
-    quantity: int
-    material: str
-    mass_kg: float
-    mass_source: str
     price_eur: float | None = None
     time_s: float | None = None
     price_from: str = ""
@@ -172,25 +167,15 @@ def bill_of_materials(robot: Robot) -> Bill:
     return replace(_priced([*printed, *bought], robot.workshop), used=used_up(robot))
 
 
-def mass_facts(bill: Bill) -> list[dict[str, Any]]:
-    """Return the bill's masses and where they came from, for the manifest."""
-    return [
-        {
-            "kind": item.kind,
-            "name": item.name,
-            "quantity": item.quantity,
-            "material": item.material,
-            "mass_kg": item.mass_kg,
-            "source": item.mass_source,
-        }
-        for item in bill.items
-    ]
+def mass_facts(lines: Iterable[MassLine]) -> list[dict[str, Any]]:
+    """Return masses and where they came from, for the manifest."""
+    return [{name: getattr(line, name) for name in MASSES} for line in lines]
 
 
 def bill_of_facts(facts: Iterable[Mapping[str, Any]], workshop: Workshop, used: Iterable[str] = ()) -> Bill:
     """Return the bill of `mass_facts` in a manifest, with the prices of a workshop and what is used up."""
-    keys = ("kind", "name", "quantity", "material", "mass_kg", "source")
-    return replace(_priced([BillLine(*(line[key] for key in keys)) for line in facts], workshop), used=tuple(used))
+    lines = [BillLine(**{name: line[name] for name in MASSES}) for line in facts]
+    return replace(_priced(lines, workshop), used=tuple(used))
 
 
 def write_bom(bill: Bill) -> str:
@@ -202,7 +187,7 @@ def _rows(bill: Bill) -> Iterator[Sequence[object]]:
     for item in bill.items:
         each, total = (f"{1000.0 * mass:.3f}" for mass in (item.mass_kg, item.total_kg))
         prices = euros(item.price_eur, 3), euros(item.total_eur)
-        row = (item.kind, item.name, item.quantity, item.ordered, item.material, each, total, item.mass_source)
+        row = (item.kind, item.name, item.quantity, item.ordered, item.material, each, total, item.source)
         yield *row, *prices, _seconds(item.time_s), item.price_from
     for name in bill.used:
         yield "used up", name, *[""] * (len(COLUMNS) - 2)

@@ -5,7 +5,6 @@ import math
 from jumpcad.catalogue import Bearing
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, LEVER_EYE_RADIUS_MM, SPACER_RADIUS_MM
 from jumpcad.drive import CamLimits, DriveLimits, SpringLimits, TrainLimits
-from jumpcad.drive.release import ReleaseLimits
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.supply import supply_of
 from jumpcad.parts.holes import HoleSizes
@@ -97,22 +96,3 @@ def _track_mm(workshop: Workshop) -> float:
     """Return the room that the sensor's track needs between the dog and the cam gear's teeth; 0 without."""
     sensor = chosen_parts(workshop).components.get("sensor")
     return track_mm(sensor.travel, workshop.seats.sensor_along_mm) if sensor and sensor.travel else 0.0
-
-
-def release_limits(workshop: Workshop) -> ReleaseLimits:
-    """Return the limits and assumptions of the release in a workshop."""
-    table, safety = workshop.release, workshop.safety
-    low, high = table.backlash_deg
-    return ReleaseLimits(
-        energy_ratio_min=table.energy_ratio_min,
-        motor_nm=safety.motor_torque_max_nm,
-        teeth_mpa=workshop.material("gears").strength_in_plane_mpa / safety.printed_factor,
-        rounding_mm=table.corner_radius_mm,
-        friction=table.friction,
-        rotor_kg_m2=table.rotor_kg_m2,
-        backlash_rad=(math.radians(low), math.radians(high)),
-        rebound=table.rebound,
-        train_nm_per_rad=table.train_nm_per_rad,
-        contact_n_per_m=1000.0 * table.contact_n_per_mm,
-        kick_reserve=safety.kick_reserve,
-    )

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from jumpcad.building.limits import release_limits
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.drive.release import MovingParts, Release, release
 from jumpcad.mechanism.model import Body, Spring
@@ -43,7 +42,7 @@ def release_of(
         lever_n_per_m=1000.0 * tip_stiffness_n_per_mm(lever, length, workshop.material("links").modulus_mpa),
         roller_kg=sum(item.mass.mass_kg for item in hardware if item.name.startswith("roller")) + LEVER_SHARE * mass,
     )
-    return release(layout.drive, moving, release_limits(workshop))
+    return release(layout.drive, moving, workshop)
 
 
 def _about_axle(part: Part, axis_mm: Array) -> float:

@@ -28,6 +28,7 @@ from jumpcad.bundle.manifest import (
     LINE_ENDS,
     MANIFEST,
     Bundle,
+    Manifest,
     above,
     few,
     open_bundle,
@@ -139,6 +140,7 @@ def _put(new: Bundle, old: Bundle | None, contents: Mapping[str, str | bytes], g
     if old and old.manifest["files"] == manifest["files"]:  # the libraries that first gave these bytes stay named
         first = {library: version for library, version in old.manifest["versions"].items() if library in LIBRARIES}
         manifest["versions"] = manifest["versions"] | first
+    manifest = Manifest.model_validate(manifest).model_dump(exclude_unset=True)
     files[MANIFEST] = (json.dumps(manifest, indent=2, allow_nan=False) + "\n").encode()
     with _plain_errors(new.folder):
         _replace(new.folder, files, _replaceable(old, files, gone, force) if old else {})

@@ -135,10 +135,11 @@ def _page(
 
 def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
     """Return the manifest's entries about the robot."""
+    bill = bill_of_materials(robot)
     return {
         "mass_kg": robot.mass_kg,
-        "masses": mass_facts(bill_of_materials(robot)),
-        "used_up": bill_of_materials(robot).used,
+        "masses": mass_facts(bill.items),
+        "used_up": list(bill.used),
         "bodies": {
             name: {
                 "mass_kg": body.mass_kg,

@@ -6,14 +6,15 @@ import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, NoReturn
+from typing import Annotated, Any, NoReturn
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictFloat, StrictInt
 
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import read_json
 from jumpcad.files.names import Text
 from jumpcad.files.outputs import sha256
+from jumpcad.parts.mass_line import MassLine
 from jumpcad.plural import counted
 
 MANIFEST = "manifest.json"
@@ -52,31 +53,26 @@ def own_path(path: str) -> str:
     return path
 
 
-class _MassLine(BaseModel):
-    """Where the mass of a part comes from."""
+class Manifest(BaseModel):
+    """What manifest.json says, in its order: of the coupon no more than masses. One that is read may say more."""
 
-    model_config = ConfigDict(strict=True)
+    model_config = ConfigDict(extra="allow")
 
-    kind: Literal["printed", "pad", "bought"]
-    name: Text
-    quantity: Annotated[int, Field(ge=1)]
-    material: Text
-    mass_kg: Annotated[float, Field(ge=0.0)]
-    source: Text
-
-
-class _Manifest(BaseModel):
-    """The keys of a manifest that jumpcad reads; it may have more."""
-
-    model_config = ConfigDict(strict=True)
-
-    format: int
+    format: StrictInt
     name: Annotated[str, AfterValidator(_part)]
     versions: dict[str, str]
-    masses: list[_MassLine] = []
+    mass_kg: StrictFloat = 0.0
+    masses: list[MassLine] = []
     used_up: list[Text] = []
-    mass_kg: float = 0.0
     bodies: dict[str, Any] = {}
+    drive: Any = None
+    electronics: Any = None
+    stop: Any = None
+    joints: Any = None
+    cage: Any = None
+    flight: Any = None
+    rights_itself: Any = None
+    ground: Any = None
     files: dict[Annotated[str, AfterValidator(own_path)], Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]]
 
 
@@ -154,7 +150,7 @@ def open_bundle(folder: str | Path) -> Bundle:
     if isinstance(form, int) and form != FORMAT:
         raise JumpcadError(f"{path}: format {form}; this version reads {FORMAT}: build it again")
     try:
-        _Manifest.model_validate(manifest)
+        Manifest.model_validate(manifest)
     except ValueError:
         raise JumpcadError(f"{path}: is not the manifest of a bundle: build it again with jumpcad build") from None
     return Bundle(Path(os.path.realpath(folder)), manifest)

@@ -10,12 +10,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import (
-    PlotsOption,
-    SearchOptions,
-    require_plots,
-    with_search_options,
-)
+from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_options
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.plural import counted
@@ -61,7 +56,7 @@ OverOption = Annotated[
 ]
 
 
-@with_search_options
+@with_options
 def explore(
     *,
     view: ViewArgument,
@@ -80,7 +75,6 @@ def explore(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
-    from jumpcad.search.space import Space
     from jumpcad.search.study.database import require_study
     from jumpcad.search.study.evaluator import Evaluator
     from jumpcad.search.study.request import Request
@@ -96,8 +90,8 @@ def explore(
     require_study(options.study)
     require_plots(plots, force)
     robot = options.robot_model()
-    space = Space.parse(options.fix or (), options.bound or (), options.choose or (), workshop=robot.workshop)
-    request = Request.make(space, robot, "ga", options.objective)
+    space = options.space(robot)
+    request = Request(space, robot, options.objective, "ga")
     robot, objective = request.model, request.aim
     centre = load_design(AROUND if around is None else around)
     identity = {

@@ -9,11 +9,11 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
 from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_search_options
+from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, with_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.errors import without_controls
 from jumpcad.plural import counted
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, PAPER, SEQUENCES, UNTIL_PERCENT
+from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -35,49 +35,6 @@ MethodArgument = Annotated[
     ),
 ]
 EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
-AroundOption = Annotated[
-    str | None,
-    typer.Option(help="The design from which --only and --within start; it is evaluated first.", metavar="DESIGN"),
-]
-StartOption = Annotated[
-    list[str] | None, typer.Option(help="A design to begin with; may be repeated.", metavar="DESIGN")
-]
-OnlyOption = Annotated[
-    str | None, typer.Option(help="Search these parameters only; the others as in --around.", metavar="NAME,…")
-]
-WithinOption = Annotated[
-    float | None, typer.Option(help="Search within ± this percentage of each range.", metavar="PERCENT")
-]
-PresetOption = Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")]
-BatchOption = Annotated[int, typer.Option(help="BO proposals evaluated in parallel: more than 1 for many workers.")]
-FromOption = Annotated[
-    Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
-]
-UntilOption = Annotated[
-    float,
-    typer.Option(
-        help="End when the last steps of BO gain less than this share of the best score; 0: never.",
-        metavar="PERCENT",
-    ),
-]
-HoursOption = Annotated[float, typer.Option(help="End the search after this time, 0: never; the same command goes on.")]
-AgainstOption = Annotated[
-    str | None,
-    typer.Option(
-        help="For pareto and nsga2: electrical-energy, spring-energy, mass, winding-time, or another objective.",
-        metavar="NAME",
-        show_default="electrical-energy; spring-energy of robots that are not printed",
-    ),
-]
-ScreenFlag = Annotated[
-    bool, typer.Option("--screen", help="For ga: leave out candidates that a quick estimate finds too bad.")
-]
-RequireOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        help="Keep a figure, or the margin of a limit, within limits: -30<=touchdown_pitch_deg<=30.", metavar="LIMITS"
-    ),
-]
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
@@ -86,26 +43,14 @@ OutputOption = Annotated[
 NO_PICK = f"none for the robust pick, which needs {4 * LEAST_PICK} in all"
 
 
-@with_search_options
+@with_options
 def optimize(
     *,
     context: typer.Context,
     methods: MethodArgument = None,
     evaluations: EvaluationsOption = EVALUATIONS,
-    options: SearchOptions,
+    options: OptimizeOptions,
     seeds: SeedsOption = None,
-    around: AroundOption = None,
-    start: StartOption = None,
-    only: OnlyOption = None,
-    within: WithinOption = None,
-    preset: PresetOption = "recommended",
-    batch: BatchOption = 1,
-    from_study: FromOption = None,
-    until: UntilOption = UNTIL_PERCENT,
-    hours: HoursOption = 0.0,
-    screen: ScreenFlag = False,
-    against: AgainstOption = None,
-    require: RequireOption = None,
     output: OutputOption = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -119,33 +64,15 @@ def optimize(
     are compared; the design is the most robust winner of all.
     """
     from jumpcad.comparison import changes_in_words
-    from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.search.space import Space
     from jumpcad.search.study.database import require_study
-    from jumpcad.search.study.request import Request
     from jumpcad.search.study.result import workshop_file
     from jumpcad.search.study.run import run_study
 
-    centre = None if around is None else load_design(around)
-    begun = [load_design(one) for one in start or ()]
-    names = [] if only is None else [name.strip() for name in only.split(",")]
-    robot = options.robot_model().requiring(require or ())
-    changes = (options.fix or (), options.bound or (), options.choose or ())
-    of_study, shop = PAPER in (methods or ()), robot.workshop
-    space = Space.parse(*changes, around=centre, only=names, within_percent=within, workshop=shop, study=of_study)
     source = context.get_parameter_source("seed")
     asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
-    requests = [
-        Request.make(
-            space, robot, method, options.objective,
-            evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=from_study,
-            until_percent=until, hours=hours, screen=screen, against=against,
-            start=begun, around=centre,
-        )
-        for method in methods or (None,)
-        for seed in asked or (options.seed,)
-    ]  # fmt: skip
+    requests = options.requests(methods or [DEFAULT], asked or [options.seed], evaluations)
+    robot, space, centre = requests[0].model, requests[0].space, requests[0].around
     base = options.study or Path(requests[0].default_name())
     paths = [base] if asked is None else study_files(requests, options.study)
     for path in paths:
@@ -156,15 +83,7 @@ def optimize(
     if space.of_workshop:
         outputs["the workshop file"] = workshop_file(design_file)
         require_target(workshop_file(design_file), (".toml",), force)
-    require_apart(
-        outputs,
-        {
-            "--from-study": from_study,
-            "--around": around,
-            **{f"--start {one}": one for one in start or ()},
-            **options.inputs(),
-        },
-    )
+    require_apart(outputs, options.inputs())
     require_target(design_file, (".toml",), force)
     require_plots(plots, force)
     results = []
@@ -198,13 +117,13 @@ def optimize(
     else:
         of_winner = result.winner is not None and result.winner.workshop
         if facts:
-            print_seeds(facts, chosen, result.request.objective)
+            print_seeds(facts, chosen, result.request.aim.name)
         used = str(workshop_file(design_file)) if of_winner else options.workshop
         made = shell_quoted(str(design_file)) + (f" --workshop {shell_quoted(used)}" if used else "")
         changed = changes_in_words(before, result.winner.evaluation.metrics) if before and result.winner else ""
         print_text(
             "optimize", result=result, design_file=str(design_file), violated=violated, made=made, counted=counted,
-            changed=changed, around=around,
+            changed=changed, around=options.around,
         )  # fmt: skip
     if result.winner is None:
         raise typer.Exit(1)

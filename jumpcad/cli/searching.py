@@ -1,9 +1,9 @@
-"""The common options of `explore` and `optimize`, and checks of their files."""
+"""The options of `explore` and `optimize`, and checks of their files."""
 
 import functools
 import inspect
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
@@ -12,10 +12,13 @@ import typer
 
 from jumpcad.cli.subjects import SeedOption
 from jumpcad.errors import JumpcadError
+from jumpcad.search.phases import PAPER, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
+    from jumpcad.search.space import Space
     from jumpcad.search.study.pool import Pool
+    from jumpcad.search.study.request import Request
 
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
@@ -78,6 +81,13 @@ class SearchOptions:
 
         return robot_model(self.model, self.workshop, self.settings, self.engine)
 
+    def space(self, robot: "RobotModel", **others: Any) -> "Space":
+        """Return the space of a robot's workshop that the options describe."""
+        from jumpcad.search.space import Space
+
+        changes = self.fix or (), self.bound or (), self.choose or ()
+        return Space.parse(*changes, workshop=robot.workshop, **others)
+
     def inputs(self) -> dict[str, str | None]:
         """Return the files that are read, by their options."""
         return {"--workshop": self.workshop, "--settings": self.settings}
@@ -89,24 +99,101 @@ class SearchOptions:
         return open_pool(self.workers, self.dask, self.limit)
 
 
-def with_search_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Return a command with an option for each field of `SearchOptions` in place of its parameter `options`."""
-    hints = get_type_hints(SearchOptions, include_extras=True)
-    names = {field.name for field in fields(SearchOptions)}
+@dataclass(frozen=True)
+class OptimizeOptions(SearchOptions):
+    """All that decides the searches of `optimize`, but their methods and number of evaluations."""
+
+    around: Annotated[
+        str | None,
+        typer.Option(help="The design from which --only and --within start; it is evaluated first.", metavar="DESIGN"),
+    ] = None
+    start: Annotated[
+        list[str] | None, typer.Option(help="A design to begin with; may be repeated.", metavar="DESIGN")
+    ] = None
+    only: Annotated[
+        str | None, typer.Option(help="Search these parameters only; the others as in --around.", metavar="NAME,…")
+    ] = None
+    within: Annotated[
+        float | None, typer.Option(help="Search within ± this percentage of each range.", metavar="PERCENT")
+    ] = None
+    preset: Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")] = (
+        "recommended"
+    )
+    batch: Annotated[int, typer.Option(help="BO proposals evaluated in parallel: more than 1 for many workers.")] = 1
+    from_study: Annotated[
+        Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
+    ] = None
+    until: Annotated[
+        float,
+        typer.Option(
+            help="End when the last steps of BO gain less than this share of the best score; 0: never.",
+            metavar="PERCENT",
+        ),
+    ] = UNTIL_PERCENT
+    hours: Annotated[
+        float, typer.Option(help="End the search after this time, 0: never; the same command goes on.")
+    ] = 0.0
+    screen: Annotated[
+        bool, typer.Option("--screen", help="For ga: leave out candidates that a quick estimate finds too bad.")
+    ] = False
+    against: Annotated[
+        str | None,
+        typer.Option(
+            help="For pareto and nsga2: electrical-energy, spring-energy, mass, winding-time, or another objective.",
+            metavar="NAME",
+            show_default="electrical-energy; spring-energy of robots that are not printed",
+        ),
+    ] = None
+    require: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Keep a figure, or the margin of a limit, within limits: -30<=touchdown_pitch_deg<=30.",
+            metavar="LIMITS",
+        ),
+    ] = None
+
+    def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[Request]":
+        """Return what is asked for, with each method and seed."""
+        from jumpcad.design import load_design
+        from jumpcad.search.study.request import Request
+
+        begun = [load_design(one) for one in self.start or ()]
+        centre = None if self.around is None else load_design(self.around)
+        only = [] if self.only is None else [name.strip() for name in self.only.split(",")]
+        robot = self.robot_model().requiring(self.require or ())
+        space = self.space(robot, around=centre, only=only, within_percent=self.within, study=PAPER in methods)
+        return [
+            Request(
+                space, robot, self.objective, method, evaluations, seed, self.preset, self.batch, self.from_study,
+                self.until, self.hours, self.screen, self.against, begun, centre,
+            )
+            for method in methods for seed in seeds
+        ]  # fmt: skip
+
+    def inputs(self) -> dict[str, Any]:
+        """Return the files that are read, by their options."""
+        starts = {f"--start {one}": one for one in self.start or ()}
+        return {"--from-study": self.from_study, "--around": self.around, **starts, **super().inputs()}
+
+
+def with_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Return a command with an option for each field of the dataclass of its parameter `options`."""
+    record = inspect.signature(command).parameters["options"].annotation
+    hints = get_type_hints(record, include_extras=True)
     parameters: list[inspect.Parameter] = []
     for parameter in inspect.signature(command).parameters.values():
-        if parameter.annotation is SearchOptions:
+        if parameter.name == "options":
             parameters += [
                 inspect.Parameter(field.name, KEYWORD, annotation=hints[field.name], default=field.default)
-                for field in fields(SearchOptions)
+                for field in fields(record)
             ]
         else:
             parameters.append(parameter.replace(kind=KEYWORD))
 
     @functools.wraps(command)
     def unfolded(**values: Any) -> None:
-        common = {name: values.pop(name) for name in names}
-        command(**values, options=SearchOptions(**common))
+        common = {field.name: values.pop(field.name) for field in fields(record)}
+        command(**values, options=record(**common))
 
     del unfolded.__wrapped__  # else Typer reads the signature and the annotations of that function
     unfolded.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from jumpcad.building.bom import Bill, BillLine, mass_facts
+from jumpcad.building.bom import mass_facts
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
 from jumpcad.coupon.pieces import (
     GAUGE_MM,
@@ -27,6 +27,7 @@ from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.files.rendering import fill, render
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.mass_line import MassLine
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
@@ -119,9 +120,9 @@ def coupon_pieces(workshop: Workshop) -> list[Piece]:
 def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
     """Return a manifest's entries about the masses of the pieces."""
     masses = [
-        BillLine("printed", one.name, one.quantity, one.material, _mass_kg(one, workshop), "printed") for one in made
+        MassLine("printed", one.name, one.quantity, one.material, _mass_kg(one, workshop), "printed") for one in made
     ]
-    return {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(Bill(tuple(masses)))}
+    return {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(masses)}
 
 
 def coupon_files(workshop: Workshop, made: Sequence[Piece], pictures: bool = True) -> Iterator[tuple[str, str | bytes]]:

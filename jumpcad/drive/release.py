@@ -17,6 +17,8 @@ from jumpcad.drive.synthesis import Drive
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.model import RollerOff, Spring
 from jumpcad.mechanism.reflected import ReflectedMass
+from jumpcad.workshop import Workshop
+from jumpcad.workshop.tables import ReleaseTable
 
 SLOW_SHARE = 0.4
 """Of the unloaded cam's speed on a full battery: the slowest motor; judgement, an empty battery and dry gears. The
@@ -49,45 +51,6 @@ BASIS = {
         "energy of the push-off: jumpcad/mechanism/reflected.py; geometry of cam and roller; 3°: judgement",
     ),
 }
-
-
-@dataclass(frozen=True)
-class ReleaseLimits:
-    """The limits and assumptions of a release; ranges are (least, largest).
-
-    Attributes
-    ----------
-    energy_ratio_min
-        Least share of the springs' energy that must be left, the energy of the lever's bending not counted.
-    motor_nm, teeth_mpa
-        Largest torque on the gear motor's output, and largest bending stress of teeth.
-    rounding_mm
-        Radius of a rounded corner, with which the limits must hold as well as with a sharp one.
-    friction
-        Coefficient between the cam's bore and its axle.
-    rotor_kg_m2, backlash_rad
-        Moment of inertia of the motor's rotor, and backlash of the gearhead at its output.
-    rebound
-        Coefficient of restitution between the jaws.
-    train_nm_per_rad
-        Stiffness of dog, teeth and gearhead together, at the cam.
-    contact_n_per_m
-        Stiffness of the roller on the cam.
-    kick_reserve
-        Share by which the torque peak at the gear motor may exceed the computed one.
-    """
-
-    energy_ratio_min: float
-    motor_nm: float
-    teeth_mpa: float
-    rounding_mm: float
-    friction: float
-    rotor_kg_m2: tuple[float, float]
-    backlash_rad: tuple[float, float]
-    rebound: float
-    train_nm_per_rad: float
-    contact_n_per_m: float
-    kick_reserve: float
 
 
 @dataclass(frozen=True)
@@ -148,7 +111,7 @@ class Release:
     findings: tuple[Finding, ...]
 
 
-def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release:
+def release(drive: Drive, moving: MovingParts, workshop: Workshop) -> Release:
     """Return the release of a drive with its finished parts: the worst of four cases.
 
     They are a sharp and a rounded corner, each with a slow motor, the heaviest rotor and the largest backlash, and with
@@ -156,15 +119,15 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     enough play only the speed does.
     """
     geometry, law, train = drive.cam.geometry, drive.cam.law, drive.train
-    sharp = roll_over(geometry)
+    table, sharp = workshop.release, roll_over(geometry)
     top = int(sharp.wind_rad.argmax())
-    wound, contact = float(sharp.wind_rad[top]), limits.contact_n_per_m * (sharp.arm_mm[top] / 1000.0) ** 2
+    wound, contact = float(sharp.wind_rad[top]), 1000.0 * table.contact_n_per_mm * (sharp.arm_mm[top] / 1000.0) ** 2
     cases = tuple(
-        _parts(drive, moving, limits, float(contact), *motor)
-        for motor in zip(limits.rotor_kg_m2, limits.backlash_rad, (1.0, SLOW_SHARE), strict=True)
+        _parts(drive, moving, table, float(contact), *motor)
+        for motor in zip(table.rotor_kg_m2, table.backlash_deg, (1.0, SLOW_SHARE), strict=True)
     )
     printed = [roll(sharp, case, wound) for case in cases]
-    corner = roll_over(geometry, limits.rounding_mm)
+    corner = roll_over(geometry, table.corner_radius_mm)
     rounded = [roll(corner, case, wound) for case in cases]
     worn = roll_over(geometry, drive.cam.worn_mm)
     kept = min(rolled.kept_j / rolled.held_j for rolled in (roll(worn, case, wound) for case in cases))
@@ -172,7 +135,7 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
     ratios = first.kept_j / first.held_j, second.kept_j / second.held_j
     kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
     push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
-    allowed, window = _kick_limit_nm(drive, limits), clear_window_rad(geometry)
+    allowed, window = _kick_limit_nm(drive, workshop), clear_window_rad(geometry)
     return Release(
         off=_roller_off(first, moving.spring),
         energy_ratio=ratios[0],
@@ -188,17 +151,17 @@ def release(drive: Drive, moving: MovingParts, limits: ReleaseLimits) -> Release
         roll_over_rad=drive.cam.roll_over_rad,
         window_rad=window,
         parts=cases,
-        findings=_findings(drive, limits, (min(ratios), kept), kick, allowed, window[1], push_off),
+        findings=_findings(drive, workshop, (min(ratios), kept), kick, allowed, window[1], push_off),
     )
 
 
 def _parts(
     drive: Drive,
     moving: MovingParts,
-    limits: ReleaseLimits,
+    table: ReleaseTable,
     contact_nm_per_rad: float,
     rotor_kg_m2: float,
-    backlash_rad: float,
+    backlash_deg: float,
     speed_share: float,
 ) -> ReleaseParts:
     """Return the parts of a release with one motor, reflected to the cam; contact stiffness as at the lift's end."""
@@ -210,11 +173,11 @@ def _parts(
         gear_kg_m2=moving.cam_gear_kg_m2 + moving.pinion_kg_m2 * train.ratio**2,
         rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2,
         play_rad=drive.dog.play_rad,
-        backlash_rad=backlash_rad / train.ratio,
+        backlash_rad=math.radians(backlash_deg) / train.ratio,
         cam_rad_s=max(speed_share * train.cam_speed_rad_s, SLOWEST_RAD_S),
-        rebound=limits.rebound,
-        friction_mm=limits.friction * moving.bore_mm / 2.0,
-        train_nm_per_rad=limits.train_nm_per_rad,
+        rebound=table.rebound,
+        friction_mm=table.friction * moving.bore_mm / 2.0,
+        train_nm_per_rad=table.train_nm_per_rad,
         lever_nm_per_rad=moving.lever_n_per_m * lever_m**2,
         contact_nm_per_rad=contact_nm_per_rad,
         roller_kg_m2=moving.roller_kg * lever_m**2,
@@ -227,11 +190,12 @@ def _roller_off(rolled: Rolled, spring: Spring) -> RollerOff:
     return RollerOff(round(-rolled.wind_rad, 9), round(-rolled.wind_rad_s, 6), round(ratio, 9))
 
 
-def _kick_limit_nm(drive: Drive, limits: ReleaseLimits) -> float:
+def _kick_limit_nm(drive: Drive, workshop: Workshop) -> float:
     """Return the largest torque on the gear motor's output: what its gearhead and every printed pinion withstand."""
-    allowed, geared = limits.motor_nm, 1.0
+    allowed, geared = workshop.safety.motor_torque_max_nm, 1.0
+    teeth_mpa = workshop.material("gears").strength_in_plane_mpa / workshop.safety.printed_factor
     for pair in drive.train.stages:
-        allowed = min(allowed, limits.teeth_mpa / pair.pinion.lewis_stress_mpa(geared))
+        allowed = min(allowed, teeth_mpa / pair.pinion.lewis_stress_mpa(geared))
         geared *= pair.ratio
     return allowed
 
@@ -247,16 +211,16 @@ def _told_apart(found: float, allowed: float) -> tuple[str, str]:
 
 def _findings(
     drive: Drive,
-    limits: ReleaseLimits,
+    workshop: Workshop,
     ratios: tuple[float, float],
     kick_nm: float,
     allowed_nm: float,
     window_rad: float,
     push_off_s: float,
 ) -> tuple[Finding, ...]:
-    (ratio, worn), least = ratios, 100.0 * limits.energy_ratio_min
+    (ratio, worn), least = ratios, 100.0 * workshop.release.energy_ratio_min
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
-    turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + limits.kick_reserve) * kick_nm
+    turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + workshop.safety.kick_reserve) * kick_nm
     needed, window = play + math.degrees(turned + PLAY_MORE_RAD), math.degrees(np.nan_to_num(window_rad))
     more_play = (f'release.play_deg = "auto" or more than {over + 3.0:.0f}', *choose("a smaller", "bought.roller"))
     return (

@@ -7,27 +7,21 @@ diagonalisation has an error of 1e-5. Visible are the parts' meshes (`meshes/NAM
 collision shapes are the contact spheres, and cylinders along the cage.
 """
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from jumpcad.dimensions import MESH_FOLDER
+from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.rendering import fill
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, Mechanism
-from jumpcad.mechanism.poses import release_pose
 from jumpcad.settings import Settings, coefficients
 
 if TYPE_CHECKING:
     from jumpcad.collision.hulls import Capsule
     from jumpcad.robot.robot import Robot
     from jumpcad.scene.visuals import Visual
-
-
-OWN = "stop", "roller_off", "friction"
-"""Attributes of `Mechanism` that only printed robots have, and their names in the JSON file."""
 
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
@@ -95,41 +89,3 @@ def cage_cylinders(mechanism: Mechanism) -> "dict[str, Capsule]":
     from jumpcad.collision.hulls import cage_capsules
 
     return {f"cage_{number}": capsule for number, capsule in enumerate(cage_capsules(mechanism), start=1)}
-
-
-def write_loop(mechanism: Mechanism) -> str:
-    """Return the JSON document beside the URDF: loop, spring, pose at release, outlines, surfaces of the spheres."""
-    release = release_pose(mechanism)
-    loop, spring = mechanism.loop, mechanism.spring
-    outline = {
-        name: [[round(one.real, 6), round(one.imag, 6)] for one in corners.tolist()]
-        for name, corners in mechanism.outline_m.items()
-    }
-    data = {
-        "design": mechanism.design.model_dump(),
-        "loop": {
-            "body_a": loop.body_a,
-            "point_a_m": loop.point_a_m.tolist(),
-            "body_b": loop.body_b,
-            "point_b_m": loop.point_b_m.tolist(),
-        },
-        "spring": {
-            "joint": spring.joint,
-            "stiffness_nm_per_rad": spring.stiffness_nm_per_rad,
-            "rest_rad": 0.0,
-            "wind_rad": spring.wind_rad,
-            **({"preload_rad": spring.preload_rad} if spring.preload_rad else {}),
-            **({"one_sided": True} if spring.one_sided else {}),
-        },
-        **{key: asdict(value) for key in OWN if (value := getattr(mechanism, key)) is not None},
-        "travel_rad": {joint.name: [joint.lower_rad, joint.upper_rad] for joint in mechanism.joints},
-        "release": {
-            "joint_rad": release.joint_rad,
-            "body_position_m": release.body_position_m.tolist(),
-            "body_pitch_rad": release.body_pitch_rad,
-        },
-        "foot_depth_m": mechanism.foot_depth_m,
-        **({"outline_m": outline} if outline else {}),
-        "surfaces": {contact.name: contact.surface for body in mechanism.bodies.values() for contact in body.contacts},
-    }
-    return json.dumps(data, indent=2, allow_nan=False) + "\n"

@@ -117,11 +117,9 @@ def optimize(
     begun = [load_design(one) if isinstance(one, str | Path) else one for one in start]
     robot = robot_model(model, workshop, settings, engine).requiring(require)
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop, method == PAPER)
-    request = Request.make(
-        space, robot, method, objective,
-        evaluations=evaluations, seed=seed, preset=preset, batch=batch, prior=None if prior is None else Path(prior),
-        until_percent=until_percent, hours=hours, screen=screen, against=against,
-        start=begun, around=centre,
+    request = Request(
+        space, robot, objective, method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against,
+        begun, centre,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, path, pool)

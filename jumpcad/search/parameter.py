@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.design import PARAMETERS, limits_of
+from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import described, shown
@@ -23,6 +23,9 @@ from jumpcad.workshop.varied import Value
 Kind = Literal["fix", "bound", "choose"]
 INSIDE = 0.01
 """Share of a range at which its workshop is tried, besides at its ends."""
+BY_FACTORS, FACTOR = ("carrying_link_mm", "d_coef", "e_coef", "stiffness_nmm_per_deg"), 7.0
+"""What a search moves by factors where its range is so many times its lower end: a step of 2 mm is none for a leg of
+200 mm, and too much for one of 40 mm."""
 DECIMALS = 10
 """Of the values that a search tries: what is written is then what a person would write."""
 FORMS: dict[Kind, tuple[str, str]] = {"fix": ("VALUE", ""), "bound": ("LO:HI", ":"), "choose": ("a,b,c", ",")}
@@ -63,13 +66,35 @@ class SearchParameter:
         return self.upper - self.lower
 
     @property
+    def by_factors(self) -> bool:
+        """Whether equal steps in the unit interval are equal factors."""
+        return self.name in BY_FACTORS and not self.choices and self.upper >= FACTOR * self.lower > 0.0
+
+    @property
+    def scale(self) -> float:
+        """Width in the unit interval of what the study searched, within which steps are judged; 1 of all else."""
+        if self.choices or self.name not in SEARCH_BOUNDS:
+            return 1.0
+        lower, upper = map(self.unit, SEARCH_BOUNDS[self.name])
+        return min(1.0, upper - lower)
+
+    def unit(self, number: float) -> float:
+        """Return the position of a number in the unit interval; outside of it if it is out of bounds."""
+        if self.by_factors and number > 0.0:
+            return math.log(number / self.lower) / math.log(self.upper / self.lower)
+        return (number - self.lower) / self.width
+
+    @property
     def levels(self) -> tuple[float, ...]:
         """Positions of the choices in the unit interval."""
         return tuple((choice - self.lower) / self.width for choice in self.choices)
 
     def at(self, units: npt.ArrayLike) -> Array:
         """Return the values (n,) at positions (n,) in the unit interval; with choices, the nearest ones."""
-        values = self.lower + np.asarray(units) * self.width
+        units = np.asarray(units)
+        values = self.lower + units * self.width
+        if self.by_factors:
+            values = self.lower * (self.upper / self.lower) ** units
         if not self.choices:
             rounded: Array = np.clip(values.round(DECIMALS), self.lower, self.upper)
             return rounded

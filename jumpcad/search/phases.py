@@ -1,13 +1,7 @@
 """Names that all of a search shares: its methods, and the phases of a study, which say what proposed a trial."""
 
-import importlib
 from collections import ChainMap
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from jumpcad.search.study.evaluator import Evaluator
-    from jumpcad.search.study.request import Stage
 
 
 @dataclass(frozen=True)
@@ -46,11 +40,6 @@ class Method:
     ends: bool = False
     shares: bool = False
     least: int = 0
-
-    def run(self, evaluator: "Evaluator", stage: "Stage") -> bool:
-        """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
-        module, name = self.function.split(".")
-        return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, stage))
 
 
 PAPER = "paper"

@@ -196,6 +196,11 @@ class Space:
         """Number of names of each free parameter; 0 if its values are numbers."""
         return tuple(len(parameter.names) for parameter in self.free)
 
+    @cached_property
+    def scale(self) -> Array:
+        """Lengths (dimension,) along the axes of the unit cube that count as 1: the widths that the study searched."""
+        return np.array([parameter.scale for parameter in self.free])
+
     @property
     def dimension(self) -> int:
         """Number of free parameters."""
@@ -236,7 +241,7 @@ class Space:
         key = (variant := Variant.of(one)).key
         if key not in self._units:
             numbers = ((parameter, parameter.number(variant.value(parameter.name))) for parameter in self.free)
-            self._units[key] = tuple((number - parameter.lower) / parameter.width for parameter, number in numbers)
+            self._units[key] = tuple(parameter.unit(number) for parameter, number in numbers)
         return np.array(self._units[key])
 
     @cached_property
@@ -249,7 +254,7 @@ class Space:
         values = {}
         for one in self.of_workshop:
             number = one.number(workshop_value(workshop, one.name)) if workshop else math.nan
-            unit = (number - one.lower) / one.width if one.free and math.isfinite(number) else 0.0
+            unit = one.unit(number) if one.free and math.isfinite(number) else 0.0
             values[one.name] = one.value(float(one.at([min(max(unit, 0.0), 1.0)])[0]))
         return Variant(design, values)
 

@@ -9,16 +9,16 @@ import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
-from pydantic import Field
 from scipy.spatial.transform import Rotation
 
 from jumpcad.collision.hulls import CAGE
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.files import Record, TomlTable, read_bytes, read_json
+from jumpcad.exporters.loop_file import JOINTS, LoopFile
+from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import shown
 from jumpcad.files.names import LONGEST_TEXT, control_character
 from jumpcad.mechanism.model import (
@@ -37,16 +37,6 @@ from jumpcad.mechanism.model import (
 from jumpcad.mechanism.planar import points
 from jumpcad.transforms import Array
 
-Length = Annotated[float, Field(ge=-10, le=10)]
-Angle = Annotated[float, Field(ge=-20, le=20)]
-Radius = Annotated[float, Field(ge=0, le=0.1)]
-Point = Annotated[tuple[Length, Length, Length], Field(strict=False)]
-Corner = Annotated[tuple[Length, Length], Field(strict=False)]
-Outline = Annotated[list[Corner], Field(min_length=3, max_length=1000)]
-JointName = Literal["leg", "front", "ankle"]
-BodyName = Literal["body", "main_leg", "front_link", "foot"]
-
-JOINTS: tuple[JointName, ...] = ("leg", "front", "ankle")
 LARGEST_M = 10.0
 """How far anything of a robot may be from the origin of its frame."""
 MASS_KG = 1e-6, 1e3
@@ -59,77 +49,6 @@ LARGEST_EFFORT = 1e6
 """Limit of a joint's torque (N·m) and speed (rad/s)."""
 SAME = 1e-6
 """By how much the mechanism of the URDF may differ from its design's (m, rad)."""
-
-
-class LoopSection(TomlTable):
-    """The closure of the five-bar, see `jumpcad.robot.Loop`."""
-
-    body_a: BodyName
-    point_a_m: Point
-    body_b: BodyName
-    point_b_m: Point
-
-
-class SpringSection(TomlTable):
-    """Both springs together, see `jumpcad.robot.Spring`."""
-
-    joint: Literal["leg"]
-    stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e3)]
-    rest_rad: Annotated[float, Field(ge=0, le=0)]
-    wind_rad: Annotated[float, Field(ge=1e-4, le=3.1416)]
-    preload_rad: Annotated[float, Field(ge=0, le=3.1416)] = 0.0
-    one_sided: bool = False
-
-
-class StopSection(TomlTable):
-    """The stop beyond rest, see `jumpcad.robot.Stop`."""
-
-    joint: Literal["leg"]
-    angle_rad: Annotated[float, Field(ge=0, le=3.1416)]
-    stiffness_nm_per_rad: Annotated[float, Field(ge=1e-4, le=1e6)]
-
-
-class RollerOffSection(TomlTable):
-    """Where the jump begins, see `jumpcad.robot.RollerOff`."""
-
-    leg_rad: Annotated[float, Field(ge=-3.1416, le=0)]
-    leg_rad_s: Annotated[float, Field(ge=0, le=1e4)]
-    energy_ratio: Annotated[float, Field(ge=1e-3, le=1.01)]
-
-
-class FrictionSection(TomlTable):
-    """Friction on the ground and in the pins, see `jumpcad.robot.Friction`."""
-
-    foot: Annotated[float, Field(ge=1e-3, le=2)]
-    body: Annotated[float, Field(ge=1e-3, le=2)]
-    pin: Annotated[float, Field(ge=0, le=2)]
-    pin_radius_m: Annotated[tuple[Radius, Radius, Radius, Radius], Field(strict=False)]
-
-
-class ReleaseSection(TomlTable):
-    """The pose at release; simulations find it themselves."""
-
-    joint_rad: dict[JointName, Angle]
-    body_position_m: Point
-    body_pitch_rad: Angle
-
-
-class LoopFile(Record):
-    """The JSON file beside a URDF: what URDF cannot express; the design is validated as any other."""
-
-    design: dict[str, Any]
-    loop: LoopSection
-    spring: SpringSection
-    travel_rad: Annotated[
-        dict[JointName, Annotated[tuple[Angle, Angle], Field(strict=False)]], Field(min_length=3, max_length=3)
-    ]
-    release: ReleaseSection
-    stop: StopSection | None = None
-    roller_off: RollerOffSection | None = None
-    friction: FrictionSection | None = None
-    foot_depth_m: Annotated[float, Field(ge=1e-5, le=1)]
-    outline_m: dict[BodyName, Outline] = Field(default_factory=dict)
-    surfaces: dict[str, Literal["foot", "body"]]
 
 
 def robot_from_urdf(path: Path) -> Mechanism:

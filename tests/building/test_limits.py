@@ -5,13 +5,15 @@ from dataclasses import fields, replace
 from typing import Any
 
 import pytest
+from support.built import built
 from support.each import each
-from support.strengths import with_own
+from support.strengths import with_motor_of, with_own
 
-from jumpcad.building.limits import drive_limits, release_limits
+from jumpcad.building.limits import drive_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive import DriveLimits
+from jumpcad.drive.release import _kick_limit_nm
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.sizing import sections
@@ -67,8 +69,9 @@ def test_teeth_and_cam_are_as_strong_and_stiff_as_what_gears_are_printed_in(role
         if getattr(getattr(before, of), field.name) != getattr(getattr(after, of), field.name)
     }
     assert found == dict.fromkeys(names, pytest.approx(0.5))
-    teeth = release_limits(weak).teeth_mpa / release_limits(usual).teeth_mpa
-    assert teeth == pytest.approx(0.5 if role == "gears" else 1.0)
+    drive = built("kenan-2.0").layout.drive
+    kick = _kick_limit_nm(drive, with_motor_of(weak, 1e6)) / _kick_limit_nm(drive, with_motor_of(usual, 1e6))
+    assert kick == pytest.approx(0.5 if role == "gears" else 1.0)
 
 
 def test_springs_that_last_longer_are_stressed_less() -> None:
@@ -92,13 +95,3 @@ def test_a_cam_lets_the_leg_swing_to_its_stop_and_into_the_pad() -> None:
     far = changed("body", stop_deg=load_workshop().body.stop_deg + 2.0)
     more = limits(far).cam.overshoot_rad - limits(load_workshop()).cam.overshoot_rad
     assert math.degrees(more) == pytest.approx(2.0)
-
-
-def test_the_release_is_computed_with_the_workshops_figures_in_si_units() -> None:
-    """Backlash in degrees and stiffness in N/mm are given; printed teeth bear what gears do."""
-    shop = changed("release", backlash_deg=(3.0, 6.0), contact_n_per_mm=700.0)
-    found = release_limits(shop)
-    assert found.backlash_rad == pytest.approx((math.pi / 60.0, math.pi / 30.0))
-    assert found.contact_n_per_m == pytest.approx(7e5)
-    assert found.teeth_mpa == pytest.approx(limits(shop).train.stress_mpa)
-    assert found.motor_nm == shop.safety.motor_torque_max_nm

@@ -72,7 +72,7 @@ def test_the_guide_prints_and_glues_pads_and_does_not_order_them() -> None:
     assert "self-adhesive" in buy  # the stop's is cut
     bill = bill_of_materials(robot)
     assert bill.mass_kg == pytest.approx(robot.mass_kg)
-    assert bill_of_facts(mass_facts(bill), robot.workshop, bill.used) == bill
+    assert bill_of_facts(mass_facts(bill.items), robot.workshop, bill.used) == bill
 
 
 @pytest.mark.thorough

@@ -59,7 +59,7 @@ def test_every_option_of_optimize_arrives_and_is_that_of_python(run: Run, asked:
     )  # fmt: skip
     assert (code, err) == (2, "jumpcad: enough\n")
     request, shop = asked["request"], load_workshop("light")
-    assert (request.method, request.objective, request.evaluations, request.seed) == ("ga+bo", "range", 77, 5)
+    assert (request.method, request.aim.name, request.evaluations, request.seed) == ("ga+bo", "range", 77, 5)
     assert (request.preset, request.batch, request.prior) == ("published", 4, Path("old.db"))
     assert (request.until_percent, request.hours, request.screen) == (2.0, 1.5, False)
     model = request.model

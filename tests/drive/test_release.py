@@ -8,9 +8,9 @@ import pytest
 from support.built import built, geared
 from support.decimals import decimals
 from support.said import well_told
+from support.strengths import with_motor_of
 
 from jumpcad import build, load_design, load_workshop
-from jumpcad.building.limits import release_limits
 from jumpcad.building.releasing import release_of
 from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import Release, _kick_limit_nm
@@ -55,12 +55,13 @@ def test_a_simulation_starts_with_figures_that_do_not_differ_between_processors(
 def test_the_kick_is_limited_by_the_teeth_of_the_pinion_that_bears_least() -> None:
     """At the limit, without one of the motor, the worst pinion has the allowed stress; each gets what is before it."""
     robot = geared()
-    limits, drive = release_limits(robot.workshop), robot.layout.drive
-    limit = _kick_limit_nm(drive, replace(limits, motor_nm=1e6))
+    shop, drive = robot.workshop, robot.layout.drive
+    limit = _kick_limit_nm(drive, with_motor_of(shop, 1e6))
     first, second = drive.train.stages
     stresses = [first.pinion.lewis_stress_mpa(limit), second.pinion.lewis_stress_mpa(limit * first.ratio)]
-    assert max(stresses) == pytest.approx(limits.teeth_mpa)
-    assert _kick_limit_nm(drive, replace(limits, motor_nm=0.9 * limit)) == pytest.approx(0.9 * limit)
+    teeth_mpa = shop.material("gears").strength_in_plane_mpa / shop.safety.printed_factor
+    assert max(stresses) == pytest.approx(teeth_mpa)
+    assert _kick_limit_nm(drive, with_motor_of(shop, 0.9 * limit)) == pytest.approx(0.9 * limit)
 
 
 @pytest.mark.parametrize("name", TEMPLATES)

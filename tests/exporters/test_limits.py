@@ -10,8 +10,9 @@ from support import needs
 from support.machines import STOP_RAD, machine, rubbing
 
 from jumpcad.design import load_design
+from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.mjcf import write_mjcf
-from jumpcad.exporters.urdf import write_loop, write_urdf
+from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.simulation import Settings, simulate

@@ -10,7 +10,8 @@ from support.loaded import loaded_range_m
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.urdf import urdf_files, write_loop, write_urdf
+from jumpcad.exporters.loop_file import write_loop
+from jumpcad.exporters.urdf import urdf_files, write_urdf
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
 from jumpcad.robot.robot import Robot

@@ -339,6 +339,20 @@ def test_go_jumps_in_a_row_and_the_button_ends_it(
     assert bench.duty[5] == 0
 
 
+def test_a_row_says_what_it_does(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
+    """After a refusal none begins; `jump` ends one by a jump at once, not by `no jump`."""
+    low = Bench({100: "wind", 1000: "go 5"})
+    low.battery_v = 3.4
+    run_main(low, monkeypatch)
+    said = capsys.readouterr().out
+    assert "5 jumps in a row" not in said
+    assert "first look at the robot" in said
+    run_main(Bench({100: "go 5", 3000: "jump"}), monkeypatch)
+    said = capsys.readouterr().out
+    assert "no jump" not in said
+    assert "jump 1;" in said
+
+
 def test_what_does_not_roll_onto_its_feet_jumps_one_by_one(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
 ) -> None:

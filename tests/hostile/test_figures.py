@@ -21,10 +21,10 @@ from jumpcad.building import build
 from jumpcad.checks import quick_findings
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
+from jumpcad.exporters.loop_file import LoopFile
 from jumpcad.files import Record
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
-from jumpcad.simulation.from_urdf import LoopFile
 from jumpcad.workshop import Workshop, load_workshop
 
 TINY = 5e-324

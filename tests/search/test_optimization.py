@@ -115,7 +115,7 @@ def test_what_is_known_is_evaluated_first_and_the_search_begins_with_it(folder, 
 def test_a_start_of_the_workshop_has_its_values_or_the_nearest_that_are_searched():
     robot = robot_model("printed")
     space = Space.parse(bound=["body.plate_mm=2.6:3"], choose=["bought.roller=683,682"], workshop=robot.workshop)
-    (begun,) = Request.make(space, robot, start=[load_design("best-bo")]).first
+    (begun,) = Request(space, robot, start=[load_design("best-bo")]).first
     assert dict(begun.workshop) == {"body.plate_mm": 2.6, "bought.roller": "683"}
     with pytest.raises(JumpcadError, match="evaluations = 1 leave 1 for the search, which begins with 2 designs"):
-        Request.make(space, robot, evaluations=1, start=[load_design("best-bo"), load_design("best-ga")])
+        Request(space, robot, evaluations=1, start=[load_design("best-bo"), load_design("best-ga")])

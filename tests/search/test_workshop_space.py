@@ -137,7 +137,7 @@ def test_the_winner_s_files_make_the_robot_that_was_searched(tmp_path, monkeypat
     design = load_design("best-printable")
     space = Space.make(fixed=design.model_dump(), choices={"body.plate_mm": [1.6, 2.0]}, workshop=WORKSHOP)
     with local_pool(0) as pool:
-        result = run_study(Request.make(space, robot_model(), "ga", evaluations=2), None, pool)
+        result = run_study(Request(space, robot_model(), method="ga", evaluations=2), None, pool)
     result.save(tmp_path / "best.toml")
     again = evaluate(load_design(tmp_path / "best.toml"), load_workshop(tmp_path / "best-workshop.toml"))
     assert again.body_lengths == pytest.approx(result.score, rel=1e-12)

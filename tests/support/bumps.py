@@ -46,5 +46,5 @@ class Bump(RobotModel):
 def studied(path, space, method="bo", evaluations=20):
     """Return the finished study of a bump."""
     with local_pool(0) as pool:
-        run_study(Request(space, Bump(), method=method, evaluations=evaluations, until_percent=0.0), path, pool)
+        run_study(Request(space, Bump(), "fitness", method, evaluations, until_percent=0.0), path, pool)
     return StudyStore.read(path)

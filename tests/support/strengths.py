@@ -70,3 +70,9 @@ def helped(robot: Robot, find: Callable[[Robot], Iterable[Finding]]) -> set[str]
                 assert after.margin > before.margin - 1e-9, (before.name, name)
                 better |= {before.name} if after.margin > before.margin + 1e-9 else set()
     return better
+
+
+def with_motor_of(workshop: Workshop, torque_nm: float) -> Workshop:
+    """Return a workshop whose motors bear another torque."""
+    safety = workshop.safety.model_copy(update={"motor_torque_max_nm": torque_nm})
+    return workshop.model_copy(update={"safety": safety})

@@ -13,7 +13,7 @@ import time
 
 import robot
 from machine import ADC, PWM, WDT, WDT_RESET, Pin, reset_cause
-from winder import READY, WINDING, Row, Winder
+from winder import FAULT, READY, REFUSED, WINDING, Row, Winder
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
@@ -136,6 +136,8 @@ def run():
             pressed = button.pressed(now, down)
             if number > 1 and not robot.RIGHTS_ITSELF:
                 output.say("it does not roll onto its feet: set it on them, and give go 1")
+            elif number and winder.state in (REFUSED, FAULT):
+                output.say("no jumps in a row after that: first look at the robot, and wind")
             elif number:
                 row.begin(number, now)
                 output.say("%d jumps in a row; stop or the button ends it" % number)
@@ -143,7 +145,7 @@ def run():
             if ended:
                 row.end()
                 pressed = pressed and winder.state == WINDING  # it ends the row, and nothing begins
-            if ended and winder.state == READY:
+            if ended and winder.state == READY and word != "jump":
                 output.say("no jump; the springs stay loaded")
             elif pressed and release_at is not None:
                 release_at = None

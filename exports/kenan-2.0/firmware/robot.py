@@ -23,6 +23,6 @@ SETTLE_MS = 10  # a switch counts after this
 LANDING_MS = 1500  # ignored after a jump
 REST_MS = 2000  # between landing, winding and release of jumps in a row
 BUTTON_DELAY_MS = 3000  # to step back
-RIGHTS_ITSELF = False  # it has a cage; without one it jumps once, and is set on its feet again
+RIGHTS_ITSELF = False  # by its cage; without one it jumps once, and is set on its feet again
 RAMP_MS = 100
 WATCHDOG_MS = 1000  # a program that hangs for so long is restarted, motor off

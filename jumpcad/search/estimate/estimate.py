@@ -118,11 +118,13 @@ class Estimator:
     def _jump(self, design: Design, figures: Mapping[str, float]) -> Estimate:
         """Return the estimate of a design's robot with these figures."""
         assert self._like is not None
+        assert self._figures is not None
         if errors(geometry_findings(design)):
             return Estimate(None, {})
         robot = estimated_robot(design, figures, self._like)
         jump = simulate(robot, self._model.estimate_settings, self._model.estimate_engine)
-        margins = {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
+        margins, kept = self._figures.margins(figures)
+        margins |= {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Estimate(None, margins)
         found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
@@ -132,7 +134,7 @@ class Estimator:
         others = self._model.on_floors(robot, self._model.estimate_settings, self._model.estimate_engine)
         asked = self._model.required(Evaluation("jump", found), others)
         score = self._objective.unrequired(asked) or 0.0
-        return Estimate(score, {**margins, **asked.margins}, kept=not asked.reasons)
+        return Estimate(score, {**margins, **asked.margins}, kept=kept and not asked.reasons)
 
 
 def learned_rows(known: int) -> int:

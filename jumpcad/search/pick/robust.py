@@ -9,16 +9,18 @@ Near some designs a thousandth of one parameter decides whether they jump; a pri
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
+from pydantic import AfterValidator, ConfigDict, PlainSerializer
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import physical_limits
 from jumpcad.search.pick.tolerances import SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
-from jumpcad.search.study.trial import Trial, feasible_trials
+from jumpcad.search.study.objective import Figure, Reason
+from jumpcad.search.study.trial import Count, Position, Trial, feasible_trials
 from jumpcad.search.study.variant import Variant
 
 MOST_CANDIDATES = 16
@@ -30,6 +32,14 @@ ACTIVE = 1e-3
 WIDENING = 0.05
 """How far beyond an active bound a design is evaluated, over the bound's range; judgement."""
 NOT_EXAMINED = "not examined: the robust pick has no evaluations or time left"
+if TYPE_CHECKING:
+    Kept = Trial
+else:  # a study, which reads it, keeps its position
+    Kept = Annotated[
+        Position,
+        AfterValidator(lambda position, reading: reading.context.trial(position)),
+        PlainSerializer(lambda trial: trial.position),
+    ]
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,11 +54,13 @@ class Candidate:
     design ``fails`` where a percentile is no more than a rejected one's score: it may not jump as it is made.
     """
 
-    trial: Trial
-    parameters_score: float
-    print_score: float
-    rejections: dict[str, int]
-    neighbours: int
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
+
+    trial: Kept
+    parameters_score: Figure
+    print_score: Figure
+    rejections: dict[Reason, Count]
+    neighbours: Count
     fails: bool = False
 
     @property

@@ -94,7 +94,7 @@ def propose(
     candidates = [space.spread(CANDIDATES, generator)]
     for point in elite:
         scale = 10.0 ** generator.uniform(-3, -0.7, (LOCAL, 1))
-        near = point + scale * generator.standard_normal((LOCAL, space.dimension))
+        near = point + scale * space.scale * generator.standard_normal((LOCAL, space.dimension))
         for axis in np.flatnonzero(space.categories):
             near[:, axis] = np.where(generator.random(LOCAL) < REDRAWN, generator.random(LOCAL), point[axis])
         candidates.append(space.snap(near))

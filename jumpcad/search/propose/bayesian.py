@@ -160,9 +160,8 @@ def run_steps(
         if count == 0:
             found = len(evaluator.trials) - start
             if found < space.size:
-                evaluator.store.note_once(
-                    f"ended after {counted(found, 'design')}: no other was found that is new and has room"
-                )
+                told = f"ended after {counted(found, 'design')}: no other was found that is new and has room"
+                evaluator.store.note(told, once=True)
             return False
         left -= count
     raise AssertionError  # steps have no end

@@ -7,7 +7,6 @@ resumed run repeats the finished generations in milliseconds and goes on. No sec
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,33 +26,22 @@ PATIENCE = 50
 """The search ends after so many generations without a new design."""
 
 
-@dataclass(frozen=True)
-class GeneticSettings:
-    """Settings of PyGAD, by its own names."""
-
-    population: int
-    operators: Mapping[str, Any]
-
-
-SETTINGS: dict[str, GeneticSettings] = {
-    # Small steps around good parents: SBX and polynomial mutation (Deb), and a tournament of three.
-    "recommended": GeneticSettings(
-        20,
-        {
-            "num_parents_mating": 20, "parent_selection_type": "tournament", "K_tournament": 3, "keep_elitism": 2,
-            "crossover_type": "sbx", "sbx_crossover_eta": 10,
-            "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
-        },
-    ),
-    # The published study's. Five of eight genes are replaced at random: little better than random search.
-    "published": GeneticSettings(
-        10,
-        {
-            "num_parents_mating": 5, "parent_selection_type": "sss", "keep_elitism": 0, "keep_parents": 2,
-            "crossover_type": "single_point", "mutation_type": "random", "mutation_num_genes": 5,
-        },
-    ),
+SMALL_STEPS: dict[str, Any] = {
+    "crossover_type": "sbx", "sbx_crossover_eta": 10,
+    "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
 }  # fmt: skip
+"""Around good parents: SBX and polynomial mutation (Deb)."""
+SETTINGS: dict[str, tuple[int, dict[str, Any]]] = {
+    "recommended": (20, SMALL_STEPS | {
+        "num_parents_mating": 20, "parent_selection_type": "tournament", "K_tournament": 3, "keep_elitism": 2,
+    }),
+    # The published study's. Five of eight genes are replaced at random: little better than random search.
+    "published": (10, {
+        "num_parents_mating": 5, "parent_selection_type": "sss", "keep_elitism": 0, "keep_parents": 2,
+        "crossover_type": "single_point", "mutation_type": "random", "mutation_num_genes": 5,
+    }),
+}  # fmt: skip
+"""Population, and settings of PyGAD by its own names."""
 
 
 def run_genetic(evaluator: Evaluator, stage: Stage) -> None:
@@ -62,14 +50,14 @@ def run_genetic(evaluator: Evaluator, stage: Stage) -> None:
     The best designs of a prior study, and of those to begin with, make half of the first population.
     """
     request = stage.request
-    settings = SETTINGS[request.preset]
-    operators = dict(settings.operators)
+    population, operators = SETTINGS[request.preset]
     if "mutation_num_genes" in operators:
-        operators["mutation_num_genes"] = min(operators["mutation_num_genes"], evaluator.space.dimension)
+        fewer = min(operators["mutation_num_genes"], evaluator.space.dimension)
+        operators = {**operators, "mutation_num_genes": fewer}
     score = Fitness(evaluator, "ga", stage.evaluations, rejected=-2.0 * LARGEST, run=stage.run)
     if request.screen:
         score = ScreenedFitness(evaluator, "ga", stage.evaluations, score.rejected, stage.run)
-    evolve(score, _first_population(evaluator, settings.population, request.seed), operators, request.seed)
+    evolve(score, _first_population(evaluator, population, request.seed), operators, request.seed)
 
 
 class Fitness:
@@ -92,7 +80,7 @@ class Fitness:
         """Return the fitness of a feasible trial."""
         return trial.score
 
-    def __call__(self, ga: Any, population: Any, _indices: Any) -> list[Any]:
+    def of_population(self, ga: Any, population: Any, _indices: Any) -> list[Any]:
         """Return the fitness of each solution (n, genes); designs beyond the budget count as rejected."""
         space = self.evaluator.space
         before = len(self.evaluator.trials)
@@ -165,30 +153,19 @@ def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], se
     log = logging.getLogger("jumpcad.pygad")
     log.propagate = False
     log.addHandler(logging.NullHandler())
-
-    def batch(ga: Any, solutions: Any, indices: Any) -> list[Any]:
-        return fitness(ga, solutions, indices)
-
-    def after_generation(ga: Any) -> str | None:
-        return fitness.on_generation(ga)
-
     pygad.GA(
         num_generations=fitness.left * PATIENCE,
-        fitness_func=batch,
+        fitness_func=fitness.of_population,
         fitness_batch_size=len(population),
         initial_population=population.tolist(),
-        gene_space=_gene_space(fitness.evaluator.space),
+        gene_space=[list(one.levels) or {"low": 0.0, "high": 1.0} for one in fitness.evaluator.space.free],
         gene_categorical=[names > 0 for names in fitness.evaluator.space.categories],
-        on_generation=after_generation,
+        on_generation=fitness.on_generation,
         random_seed=seed,
         suppress_warnings=True,
         logger=log,
         **operators,
     ).run()
-
-
-def _gene_space(space: Space) -> list[Any]:
-    return [list(parameter.levels) or {"low": 0.0, "high": 1.0} for parameter in space.free]
 
 
 def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:

@@ -16,7 +16,7 @@ from jumpcad.design import PARAMETERS
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, energies_j, front
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.bayesian import incumbent, learned_trials, run_steps, unproposed
-from jumpcad.search.propose.genetic import Fitness, begun_with, evolve
+from jumpcad.search.propose.genetic import SMALL_STEPS, Fitness, begun_with, evolve
 from jumpcad.search.propose.initial_designs import begun
 from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.propose.surrogate import Surrogate
@@ -79,7 +79,7 @@ def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float
     for the last one, above which nothing is.
     """
     if cost is SPRING_ENERGY:
-        return [(float(cap), _excess(space, float(cap))) for cap in energy_caps_j(space)]
+        return [(float(cap), partial(_excess, space, float(cap))) for cap in energy_caps_j(space)]
     jumped = [cost.of(trial) for trial in trials if trial.score is not None]
     known = [(trial, cost.of(trial)) for trial in learned_trials(space, trials) if np.isfinite(cost.of(trial))]
     if not jumped or len(known) < LEAST_LEARNED:
@@ -89,27 +89,19 @@ def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float
         np.array([space.to_unit(trial.variant) for trial in places]), np.array(costs), None, True, space.categories
     )
     caps = np.linspace(min(jumped), max(jumped), CAPS)[:-1].tolist()
-    return [*((cap, _above(learned, cap)) for cap in caps), (np.inf, None)]
+    return [*((cap, partial(_above, learned, cap)) for cap in caps), (np.inf, None)]
 
 
-def _above(learned: Surrogate, cap: float) -> Penalty:
+def _above(learned: Surrogate, cap: float, points: Array) -> Array:
     """Return a penalty of the acquisition: minus the logarithm of the probability that the cost is below a cap."""
-
-    def penalty(points: Array) -> Array:
-        mean, deviation = learned.predict(points)
-        return np.asarray(-log_ndtr((cap - mean) / deviation))
-
-    return penalty
+    mean, deviation = learned.predict(points)
+    return np.asarray(-log_ndtr((cap - mean) / deviation))
 
 
-def _excess(space: Space, cap_j: float) -> Callable[[Array], Array]:
+def _excess(space: Space, cap_j: float, points: Array) -> Array:
     """Return a penalty of the acquisition: 0 below a cap on the energy, 1 at 1 % above it, growing smoothly."""
-
-    def penalty(points: Array) -> Array:
-        over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
-        return 1e4 * np.clip(over, 0.0, 1e3) ** 2
-
-    return penalty
+    over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
+    return np.asarray(1e4 * np.clip(over, 0.0, 1e3) ** 2)
 
 
 class ParetoFitness(Fitness):
@@ -131,13 +123,9 @@ def run_nsga2(evaluator: Evaluator, stage: Stage) -> None:
     if there are more.
     """
     half = POPULATION // 2
-    operators = {
-        "num_parents_mating": half, "parent_selection_type": "nsga2", "keep_elitism": 0, "keep_parents": -1,
-        "crossover_type": "sbx", "sbx_crossover_eta": 10,
-        "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
-    }  # fmt: skip
+    parents = {"num_parents_mating": half, "parent_selection_type": "nsga2", "keep_elitism": 0, "keep_parents": -1}
     fitness = ParetoFitness(evaluator, "nsga2", stage.evaluations, stage.request.cost)
     space, best = evaluator.space, front(begun(evaluator), fitness.cost)
     best = [best[round(place)] for place in np.linspace(0, len(best) - 1, min(len(best), half)).tolist()]
     spread = space.spread(POPULATION, np.random.default_rng([stage.request.seed, 0]))
-    evolve(fitness, begun_with(space, best, spread, POPULATION), operators, stage.request.seed)
+    evolve(fitness, begun_with(space, best, spread, POPULATION), SMALL_STEPS | parents, stage.request.seed)

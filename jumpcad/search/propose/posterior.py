@@ -42,13 +42,14 @@ THETA_DIGITS = 3
 class SearchPosterior:
     """Processes fitted to trials: of the score, once two designs are feasible, and of each constraint's margin.
 
-    Where scores were guessed, `guess` is fitted to the guesses, and `score` to what the true scores are more (Kennedy
-    and O'Hagan, Biometrika 2000, with a factor of 1).
+    They are fitted in scales of the space. Where scores were guessed, `guess` is fitted to the guesses, and `score` to
+    what the true scores are more (Kennedy and O'Hagan, Biometrika 2000, with a factor of 1).
     """
 
     score: Surrogate | None
     constraints: Mapping[str, Surrogate]
     guess: Surrogate | None = None
+    scale: Array | float = 1.0
 
     @classmethod
     def from_trials(
@@ -75,7 +76,8 @@ class SearchPosterior:
         score_of
             The score of a trial that is learned, also of one that only misses what is required.
         """
-        x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension)
+        scale = space.scale
+        x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension) / scale
 
         def learn(name: str, points: Array, values: Array) -> Surrogate:
             return Surrogate(points, values, thetas.get(name), fit, space.categories)
@@ -89,16 +91,16 @@ class SearchPosterior:
         points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
         scores = np.array([score for _, _, score in found if score is not None])
         if sum(trial.key in guesses for _, trial in jumps) >= LEAST_GUESSED:
-            places = np.array([place for place, _ in guesses.values()])
+            places = np.array([place for place, _ in guesses.values()]) / scale
             values = warped(forwards(np.array([value for _, value in guesses.values()]), scores))
             guess = learn(GUESS, places, values)
             of_keys = dict(zip(guesses, values.tolist(), strict=True))
             pairs = zip(jumps, guess.predict(points)[0].tolist(), strict=True)
             their = np.array([of_keys.get(trial.key, mean) for (_, trial), mean in pairs])
-            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess)
+            return cls(learn(MORE, points, warped(forwards(scores, scores)) - their), constraints, guess, scale)
         if len(jumps) < 2:
-            return cls(None, constraints)
-        return cls(learn("score", points, warped(forwards(scores, scores))), constraints)
+            return cls(None, constraints, None, scale)
+        return cls(learn("score", points, warped(forwards(scores, scores))), constraints, None, scale)
 
     @property
     def thetas(self) -> dict[str, list[float]]:
@@ -113,7 +115,7 @@ class SearchPosterior:
         """Return the logarithm of the probability (m,) that designs (m, d) meet every constraint."""
         total = np.zeros(len(points))
         for surrogate in self.constraints.values():
-            mean, deviation = surrogate.predict(points)
+            mean, deviation = surrogate.predict(points / self.scale)
             total += log_ndtr(mean / deviation)
         return total
 
@@ -121,6 +123,7 @@ class SearchPosterior:
         """Return the logarithm of the expected improvement (m,) of the warped score over `best` at points (m, d)."""
         if self.score is None:
             return np.zeros(len(points))
+        points = points / self.scale
         mean, deviation = self.score.predict(points)
         if self.guess is not None:
             guessed, unsure = self.guess.predict(points)
@@ -130,9 +133,11 @@ class SearchPosterior:
 
     def condition_on(self, point: Array) -> "SearchPosterior":
         """Return the posterior with its own means at a point (d,) added as measurements (kriging believer)."""
+        point = point / self.scale
         constraints = {name: surrogate.condition_on(point) for name, surrogate in self.constraints.items()}
         score = None if self.score is None else self.score.condition_on(point)
-        return SearchPosterior(score, constraints, None if self.guess is None else self.guess.condition_on(point))
+        guess = None if self.guess is None else self.guess.condition_on(point)
+        return SearchPosterior(score, constraints, guess, self.scale)
 
 
 def forwards(scores: Array, measured: Array) -> Array:

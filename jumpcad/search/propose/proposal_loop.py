@@ -26,13 +26,13 @@ ROUNDS = 8
 HELD = 4
 """Of which so many hold; the best of them is evaluated."""
 AROUND, LEAP = 0.2, 0.02
-"""How far beside a best its neighbours along the axes are tried, in the unit cube, and the share by which it must be
-better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not see
-what another axis is worth: see docs/decisions/default-search.md."""
+"""How far beside a best its neighbours along the axes are tried, in scales of the space, and the share by which it must
+be better than the last one whose neighbours were; judgement. A search that follows small gains along a bound does not
+see what another axis is worth: see docs/decisions/default-search.md."""
 WORTH = 0.001
 """Least gain, as a share of the best score, that a further dry run must promise once one holds; judgement."""
 STEP = 0.02
-"""Distance of a neighbour, in the unit cube; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
+"""Distance of a neighbour, in scales of the space; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
 WITHIN = 0.005
@@ -147,8 +147,8 @@ class ProposalLoop:
             return
         centre = self._space.to_unit(found.variant)
         numbers = np.eye(self._space.dimension)[np.array(self._space.categories) == 0]
-        beside = np.clip(centre + AROUND * np.vstack([-numbers, numbers]), 0.0, 1.0)
-        apart = np.abs(beside - centre).max(axis=1) > 0.5 * AROUND  # else a bound is too near
+        beside = np.clip(centre + AROUND * self._space.scale * np.vstack([-numbers, numbers]), 0.0, 1.0)
+        apart = (np.abs(beside - centre) / self._space.scale).max(axis=1) > 0.5 * AROUND  # else a bound is too near
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
         assert self._dry_run is not None
         self._dry_run.look_at(map(self._space.to_variant, self.tried))
@@ -193,8 +193,8 @@ def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider:
     A step away along each of them, both ways, and `DRAWN` points that are drawn at such a distance; all of them so many
     times `wider`.
     """
-    centre = space.to_unit(best.variant)
-    inside = (centre > 0.5 * STEP) & (centre < 1.0 - 0.5 * STEP) & (np.array(space.categories) == 0)
-    ways = wider * STEP * np.eye(space.dimension)[inside]
-    drawn = wider * DRAWN_STEP * inside * generator.standard_normal((DRAWN, space.dimension))
+    centre, half = space.to_unit(best.variant), 0.5 * STEP * space.scale
+    inside = (centre > half) & (centre < 1.0 - half) & (np.array(space.categories) == 0)
+    ways = wider * STEP * np.diag(space.scale)[inside]
+    drawn = wider * DRAWN_STEP * space.scale * inside * generator.standard_normal((DRAWN, space.dimension))
     return list(space.snap(np.clip(centre + np.vstack([ways, -ways, drawn]), 0.0, 1.0).round(DIGITS)))

@@ -14,12 +14,10 @@ from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.report import plots
 from jumpcad.search.report.figures import labels, panels, save_figure
-from jumpcad.search.space import Space
-from jumpcad.search.study.objective import described_objective
 from jumpcad.search.study.result import Result
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import summary
-from jumpcad.search.study.trial import Trial, searched
+from jumpcad.search.study.trial import Trial
 
 
 @check_arguments
@@ -30,12 +28,12 @@ def plot_study(store: StudyStore, folder: str | Path, force: bool = False) -> li
 
 def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:
     """Return functions that draw the pictures of a study, by the pictures' names; see `plots.acquisition`."""
-    trials, identity = searched(store.trials()), store.identity
-    space, objective = Space.from_record(identity["space"]), described_objective(identity)
+    found, identity = summary(store), store.identity
+    trials, space, objective = found.trials, found.space, found.objective
     figures: dict[str, Callable[[], Figure]] = {}
     if trials:
         figures["history"] = partial(plots.history, trials, objective)
-        figures["slices"] = partial(plots.slices, space, trials, objective, summary(store).winner)
+        figures["slices"] = partial(plots.slices, space, trials, objective, found.winner)
     if trials and space.dimension > 1:
         figures["parallel"] = partial(plots.parallel, space, trials)
     if trials and identity["method"] in FRONTS:

@@ -3,10 +3,10 @@
 import hashlib
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import Any
 
 from jumpcad.arguments import check_fields
 from jumpcad.design import Design
@@ -51,66 +51,27 @@ class Request:
 
     Parameters
     ----------
-    space, model, objective
-        The space that is searched, the robot's model, and the name of the objective.
-    own
-        An own objective, which has the name `objective`; none if None.
-    method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against, start, around
+    space, model
+        The space that is searched, and the robot's model; a printed one then computes what method and objective need.
+    objective, method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against, start, around
         See `jumpcad.optimize`.
     """
 
     space: Space
     model: RobotModel
-    objective: str = "fitness"
+    objective: str | Callable[..., Any] | Objective | None = None
     method: str = DEFAULT
     evaluations: int = EVALUATIONS
     seed: int = 0
     preset: str = "recommended"
     batch: int = 1
-    prior: Path | None = None
-    own: Objective | None = None
+    prior: str | Path | None = None
     until_percent: float = UNTIL_PERCENT
     hours: float = 0.0
     screen: bool = False
-    against: str = SPRING_ENERGY.name
-    start: tuple[Variant, ...] = ()
-    around: Variant | None = None
-
-    @classmethod
-    def make(
-        cls,
-        space: Space,
-        model: RobotModel,
-        method: str | None = None,
-        objective: str | Callable[..., Any] | None = None,
-        against: str | None = None,
-        start: Sequence[Design] = (),
-        around: Design | None = None,
-        **others: Any,
-    ) -> Self:
-        """Return a request with defaults that follow from method and model.
-
-        The default method is `bo`, the objective the model's (`range` of a front), the tolerances those of the
-        workshop. A front is against electrical energy if the robot is printed, else against that in the springs. An own
-        objective is a function, or `FILE.py:FUNCTION`.
-        """
-        if against is not None and method not in FRONTS:
-            raise JumpcadError(f"against: does not apply to {method or DEFAULT}, only to {', '.join(FRONTS)}")
-        printed_front = isinstance(model, PrintedModel) and method in FRONTS
-        if against is None:
-            against = (ELECTRICAL_ENERGY if printed_front else SPRING_ENERGY).name
-        usual = "range" if method in FRONTS else model.default_objective
-        aim = find_objective(usual if objective is None else objective)
-        own = aim if aim.code else None
-        if isinstance(model, PrintedModel) and (others.get("screen") or method not in ("ga", "nsga2")):
-            model = replace(model, stand_in=True)
-        if isinstance(model, PrintedModel):
-            model = replace(model, scored=tuple(name for name in COSTLY if aim.uses(name, model.figure_names)))
-        begun = tuple(space.begun(one, model.workshop) for one in start)
-        centre = None if around is None else space.begun(around, model.workshop)
-        return cls(
-            space, model, aim.name, method or DEFAULT, own=own, against=against, start=begun, around=centre, **others
-        )
+    against: str | None = None
+    start: Sequence[Design] = ()
+    around: Design | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -118,6 +79,17 @@ class Request:
             if name not in known:
                 hint = did_you_mean(name, known)
                 raise JumpcadError(f"{name!r} is not one of the {kind} {', '.join(known)}{hint}")
+        if self.against is not None and not self.is_front:
+            raise JumpcadError(f"against: does not apply to {self.method}, only to {', '.join(FRONTS)}")
+        aim = self.objective
+        if not isinstance(aim, Objective):
+            usual = "range" if self.is_front else self.model.default_objective
+            aim = find_objective(usual if aim is None else aim)
+            object.__setattr__(self, "objective", aim)
+        if isinstance(self.model, PrintedModel):
+            learns = self.model.stand_in or self.screen or self.method not in ("ga", "nsga2")
+            scored = tuple(name for name in COSTLY if aim.uses(name, self.model.figure_names))
+            object.__setattr__(self, "model", replace(self.model, stand_in=learns, scored=scored))
         for name, value, least, most in (
             ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
             ("seed", self.seed, 0, 2**32 - 1),
@@ -132,7 +104,7 @@ class Request:
         self.aim.require(self.model.figure_names)
         if self.is_front and self.cost.of_design is None:
             self.cost.figure.require(self.model.figure_names, "against")
-        if self.is_front and self.against == self.objective and not self.own:
+        if self.is_front and self.cost.figure is self.aim:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
         if (
             self.is_front
@@ -150,7 +122,7 @@ class Request:
                 raise JumpcadError("screen: applies to the printed robot; leave it out")
             if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
                 raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
-        for one in self.start:
+        for one in self._begun(self.start):
             if outside := self.space.outside(one):
                 raise JumpcadError(
                     f"start: {outside} is outside of the search: widen it by a bound, or leave the design out"
@@ -174,8 +146,8 @@ class Request:
     @property
     def title(self) -> str:
         """Method, robot and objective in words."""
-        against = f" against {self.against}" if self.is_front else ""
-        return f"{self.method} on the {self.model.name} robot, {self.objective}{against}"
+        against = f" against {self.cost.name}" if self.is_front else ""
+        return f"{self.method} on the {self.model.name} robot, {self.aim.name}{against}"
 
     @property
     def pick(self) -> int:
@@ -190,13 +162,17 @@ class Request:
     def first(self) -> tuple[Variant, ...]:
         """What is evaluated first: the design that the space is around, if it lies in it, and those to begin with."""
         around = () if self.around is None or self.left_out else (self.around,)
-        return tuple({one.key: one for one in (*around, *self.start)}.values())
+        return tuple({one.key: one for one in self._begun((*around, *self.start))}.values())
 
     @property
     def left_out(self) -> str:
         """Why the design that the space is around is not evaluated; mostly nothing."""
-        outside = "" if self.around is None else self.space.outside(self.around)
+        around = () if self.around is None else (self.around,)
+        outside = next(map(self.space.outside, self._begun(around)), "")
         return outside and f"around: {outside} is outside of the search, so that design is not evaluated"
+
+    def _begun(self, designs: Iterable[Design]) -> list[Variant]:
+        return [self.space.begun(one, self.model.workshop) for one in designs]
 
     @property
     def searched(self) -> int:
@@ -211,12 +187,14 @@ class Request:
     @property
     def aim(self) -> Objective:
         """The objective itself."""
-        return self.own or find_objective(self.objective)
+        assert isinstance(self.objective, Objective)
+        return self.objective
 
     @property
     def cost(self) -> Cost:
         """What a front weighs the objective against."""
-        return find_cost(self.against)
+        usual = ELECTRICAL_ENERGY if isinstance(self.model, PrintedModel) else SPRING_ENERGY
+        return usual if self.against is None else find_cost(self.against)
 
     @property
     def is_front(self) -> bool:

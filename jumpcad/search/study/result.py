@@ -84,7 +84,7 @@ class Result(ByValue):
         if is_flat(self.trials) and not self.request.is_front:
             others = f"; rejected: {reasons}" if reasons else ""
             return (
-                f"every design that jumps scores {self.best.score:g}: {self.request.objective} tells none apart; "
+                f"every design that jumps scores {self.best.score:g}: {self.request.aim.name} tells none apart; "
                 f"choose another objective{others}"
             )
         return ""
@@ -187,7 +187,7 @@ class Result(ByValue):
         """Return plain data for JSON."""
         data: dict[str, Any] = {
             "method": self.request.method,
-            "objective": self.request.objective,
+            "objective": self.request.aim.name,
             "evaluations": self.evaluations,
             "searched": len(self.trials),
             "converged": self.converged,
@@ -201,12 +201,12 @@ class Result(ByValue):
         if self.righting:
             data["righting"] = dict(self.righting)
         if self.request.is_front:
-            data |= {"against": self.request.against, "front": [trial.to_dict() for trial in self.front]}
+            data |= {"against": self.request.cost.name, "front": [trial.to_dict() for trial in self.front]}
             data["hypervolume"] = self.hypervolume
         return data
 
     def __repr__(self) -> str:
-        found = "no winner" if self.winner is None else f"{self.request.objective} {self.score:.4g}"
+        found = "no winner" if self.winner is None else f"{self.request.aim.name} {self.score:.4g}"
         trials, candidates = counted(len(self.trials), "trial"), counted(len(self.candidates), "candidate")
         return f"<Result {self.request.method}: {found}, {trials}, {candidates}>"
 
@@ -224,7 +224,7 @@ class Result(ByValue):
                 cost = self.request.cost
                 yield f"{cost.figure.meaning} {cost.shown(cost.of(trial)):.4g} {cost.figure.unit}", f"{trial.score:.6g}"
         elif self.winner is not None:
-            yield self.request.objective, self.request.aim.shown(self.score)
+            yield self.request.aim.name, self.request.aim.shown(self.score)
         if self.candidates:
             yield "score that nine of ten neighbours reach", f"{self.candidates[0].robust_score:.6g}"
         if self.winner is not None:

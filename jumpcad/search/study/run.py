@@ -3,6 +3,7 @@
 The same request ends with the same trials, whether or not it was interrupted.
 """
 
+import importlib
 import json
 import math
 import time
@@ -77,7 +78,7 @@ def run_study(
     prior, remark = _read_prior(request)
     with StudyStore.write(path, request.identity(prior)) as store:
         for one in filter(None, (remark, request.left_out)):
-            store.note_once(one)
+            store.note(one, once=True)
         stages = _stages(request, store, len(prior))
         if store.recall(ENDED) is not None:
             store.remember(ENDED, None)  # until this run ends
@@ -105,7 +106,7 @@ def run_study(
         for stage in stages:
             allowance += stage.evaluations
             if not expired():
-                converged = STAGES[stage.method].run(evaluator, stage)
+                converged = run_stage(evaluator, stage)
         trials = evaluator.trials
         timed = clock.is_over(request.pick) and not converged and len(trials) < request.searched
         picking, best = True, best_trial(trials)
@@ -121,6 +122,12 @@ def run_study(
             notes.append(f"ended after {request.hours:g} h, {where}: the same command goes on")
         store.remember(ENDED, _end(request, len(trials), converged, timed or cut))
         return replace(result, notes=notes, righting=righting)
+
+
+def run_stage(evaluator: Evaluator, stage: Stage) -> bool:
+    """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
+    module, name = STAGES[stage.method].function.split(".")
+    return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, stage))
 
 
 def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], list[ActiveBound]]:

@@ -23,7 +23,7 @@ from jumpcad.search.fronts import SPRING_ENERGY
 from jumpcad.search.phases import SEARCH_PHASES
 from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
-from jumpcad.search.study.trial import Trial, in_order
+from jumpcad.search.study.trial import Position, Trial, in_order
 
 APPLICATION_ID = 0x4A554D50
 FORMAT = 6
@@ -38,6 +38,7 @@ CREATE TABLE trials (
 PRAGMA application_id = {APPLICATION_ID};
 PRAGMA user_version = {FORMAT};
 """
+TRIALS = f"SELECT {', '.join(COLUMNS)} FROM trials"
 ENDED = "ended"
 """Key under which a study remembers what ended its search; None while it runs, and where it was interrupted."""
 MOST_NOTES, LONGEST_NOTE = 200, 1000
@@ -142,29 +143,43 @@ class StudyStore:
         return identity
 
     def recall(self, key: str, default: Any = None, kind: TypeAdapter[Any] | None = None) -> Any:
-        """Return what was remembered under a key, as plain data of a kind: that in `REMEMBERED` unless given."""
+        """Return what was remembered under a key: of a kind that is given, else plain data of that in `REMEMBERED`."""
         with plain_errors(self.path):
             found = self._connection.execute("SELECT value FROM study WHERE key = ?", (key,)).fetchone()
         if found is None and key != "identity":
             return default
         try:
-            return json.loads(_checked(key, found[0] if found else "", kind))
+            known = self._checked(key, found[0] if found else "", kind)
+            return known if kind else json.loads(found[0])
         except (JumpcadError, ValueError) as error:
             raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
     def remember(self, key: str, value: Any, kind: TypeAdapter[Any] | None = None) -> None:
-        """Keep plain data under a key; its kind as in `recall`, which reads it."""
+        """Keep something of a kind, or plain data, under a key; `recall` reads it."""
+        text = json.dumps(kind.dump_python(value) if kind else value)
         with _readable():
-            text = _checked(key, json.dumps(value), kind)
+            self._checked(key, text, kind)
         with self._transaction():
             self._connection.execute("INSERT OR REPLACE INTO study VALUES (?, ?)", (key, text))
+
+    def _checked(self, key: str, text: Any, kind: TypeAdapter[Any] | None) -> Any:
+        """Return what the text of what a study remembers says, if it is of its kind; raises `JumpcadError` else."""
+        found = kind or REMEMBERED.get(key)
+        return found and validated(partial(found.validate_json, context=self), key, text)
+
+    def trial(self, position: Position) -> Trial:
+        """Return the trial at a position."""
+        with plain_errors(self.path):
+            rows = self._connection.execute(f"{TRIALS} WHERE (phase, run, step, place) = (?, ?, ?, ?)", position)
+            for row in rows:
+                return self._reader(row)
+        raise JumpcadError(f"a trial at {' '.join(map(str, position))} is none of its trials")
 
     def trials(self) -> list[Trial]:
         """Return all trials in the order of their study."""
         with plain_errors(self.path):
-            rows = self._connection.execute(f"SELECT {', '.join(COLUMNS)} FROM trials")
             try:
-                return in_order(map(self._reader, rows))
+                return in_order(map(self._reader, self._connection.execute(TRIALS)))
             except JumpcadError as error:
                 raise JumpcadError(f"{self.path}: is damaged: {error}") from None
 
@@ -200,17 +215,11 @@ class StudyStore:
         except (AttributeError, sqlite3.Error):  # it could not be opened, or there was no space for its tables
             return True
 
-    def note(self, text: str) -> None:
-        """Keep a line about the run: a lost worker, a quarantined design."""
+    def note(self, text: str, once: bool = False) -> None:
+        """Keep a line about the run: a lost worker, a quarantined design; `once`, unless it is there already."""
+        unless = "WHERE NOT (? AND EXISTS (SELECT 1 FROM notes WHERE text = ?))"
         with self._transaction():
-            self._connection.execute("INSERT INTO notes VALUES (?)", (text,))
-
-    def note_once(self, text: str) -> None:
-        """Keep a line about the run, unless it is there already."""
-        with self._transaction():
-            self._connection.execute(
-                "INSERT INTO notes SELECT ? WHERE NOT EXISTS (SELECT 1 FROM notes WHERE text = ?)", (text, text)
-            )
+            self._connection.execute(f"INSERT INTO notes SELECT ? {unless}", (text, once, text))
 
     def notes(self) -> list[str]:
         """Return the lines about the run; of very many, how many there are and then the newest."""
@@ -240,8 +249,9 @@ class StudyStore:
 
     def _prepare(self, identity: Mapping[str, Any]) -> None:
         if self._is_new:
+            text = json.dumps(identity)
             with _readable():
-                text = _checked("identity", json.dumps(identity))
+                self._checked("identity", text, None)
             self._connection.execute("PRAGMA journal_mode = WAL")
             with self._transaction():
                 for statement in filter(str.strip, SCHEMA.split(";")):
@@ -301,13 +311,6 @@ def _readable() -> Iterator[None]:
         yield
     except JumpcadError as error:
         raise AssertionError(f"what is to be written could not be read again: {error}") from error
-
-
-def _checked(key: str, text: Any, kind: TypeAdapter[Any] | None = None) -> Any:
-    """Return the text of what a study remembers under a key, if it is of its kind; raises `JumpcadError` else."""
-    if kind or key in REMEMBERED:
-        validated((kind or REMEMBERED[key]).validate_json, key, text)
-    return text
 
 
 def _tables(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:

@@ -1,9 +1,9 @@
 """`StudySummary`: what a study file knows of its search; its robust picks, and how its winner rights itself."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
-from pydantic import TypeAdapter
+from pydantic import ConfigDict, TypeAdapter
 
 from jumpcad.building import build
 from jumpcad.errors import JumpcadError
@@ -13,7 +13,7 @@ from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
 from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.pick.robust import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Figure, Objective, Reason, described_objective
+from jumpcad.search.study.objective import Objective, described_objective
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import (
     Count,
@@ -34,19 +34,15 @@ TRIES = 50
 """Drops in any attitude, and landings of own jumps; they take half a minute."""
 
 
-class _Candidate(TomlTable):
-    trial: Position
-    parameters_score: Figure
-    print_score: Figure
-    rejections: dict[Reason, Count]
-    neighbours: Count
-    fails: bool = False
+@dataclass(frozen=True)
+class _Pick:
+    """Of a search of so many designs, with so many evaluations, and what it found once it has ended."""
 
+    __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
 
-class _Pick(TomlTable):
     designs: Count
     evaluations: Count
-    candidates: list[_Candidate] | None = None
+    candidates: list[Candidate] | None = None
     bounds: list[ActiveBound] | None = None
 
 
@@ -66,32 +62,24 @@ _PICKS, _RIGHTING = TypeAdapter(list[_Pick]), TypeAdapter(_Righting)
 
 def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
     """Return the number of the pick, with so many evaluations, of a search of so many designs; a new one if need be."""
-    asked, picks = {"designs": designs, "evaluations": evaluations}, store.recall(PICKS, [], _PICKS)
-    runs = [run for run, pick in enumerate(picks) if asked.items() <= pick.items()]
+    picks = store.recall(PICKS, [], _PICKS)
+    runs = [run for run, one in enumerate(picks) if (one.designs, one.evaluations) == (designs, evaluations)]
     if not runs:
-        store.remember(PICKS, [*picks, asked])
+        store.remember(PICKS, [*picks, _Pick(designs, evaluations)], _PICKS)
     return runs[0] if runs else len(picks)
 
 
-def keep_pick(store: StudyStore, run: int, candidates: Sequence[Candidate], bounds: Sequence[ActiveBound]) -> None:
+def keep_pick(store: StudyStore, run: int, candidates: list[Candidate], bounds: list[ActiveBound]) -> None:
     """Keep what a pick found."""
     picks = store.recall(PICKS, [], _PICKS)
-    found = [vars(one) | {"trial": one.trial.position} for one in candidates]
-    picks[run] |= {"candidates": found, "bounds": [asdict(bound) for bound in bounds]}
-    store.remember(PICKS, picks)
+    picks[run] = replace(picks[run], candidates=candidates, bounds=bounds)
+    store.remember(PICKS, picks, _PICKS)
 
 
-def read_pick(store: StudyStore, trials: Sequence[Trial], designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
+def read_pick(store: StudyStore, designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
     """Return what the last pick of a search of so many designs found; nothing where none has ended."""
-    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick["designs"] == designs and pick.get("candidates")]
-    if not ended:
-        return [], []
-    held = {trial.position: trial for trial in trials}
-    try:
-        found = [Candidate(**one | {"trial": held[tuple(one["trial"])]}) for one in ended[-1]["candidates"]]
-    except KeyError:
-        raise JumpcadError(f"{store.path}: is damaged: a candidate of its pick is none of its trials") from None
-    return found, [ActiveBound(**bound) for bound in ended[-1]["bounds"]]
+    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick.designs == designs and pick.candidates]
+    return (ended[-1].candidates, ended[-1].bounds or []) if ended else ([], [])
 
 
 def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | None) -> dict[str, float]:
@@ -107,19 +95,17 @@ def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | Non
         varied = model.varied(winner.workshop) if winner.workshop else model
         found = land(build(winner.design, varied.workshop, name=""), TRIES, settings=model.settings)
     except JumpcadError as error:
-        store.note_once(f"{RIGHTS_ITSELF}: not simulated: {error}")
+        store.note(f"{RIGHTS_ITSELF}: not simulated: {error}", once=True)
         return {}
     shares = {"tries": float(TRIES), "drops": found.drops_righted, "landings": found.share_righted}
-    store.remember(RIGHTING, {"trial": list(winner.position), "shares": shares})
+    store.remember(RIGHTING, _Righting(trial=winner.position, shares=_Shares(**shares)), _RIGHTING)
     return shares
 
 
 def kept_righting(store: StudyStore, winner: Trial | None) -> dict[str, float]:
     """Return what a study keeps of the righting of this winner; empty where it was not simulated."""
     kept = store.recall(RIGHTING, None, _RIGHTING)
-    if kept is None or winner is None or kept["trial"] != list(winner.position):
-        return {}
-    return dict(kept["shares"])
+    return kept.shares.model_dump() if kept and winner and kept.trial == winner.position else {}
 
 
 @dataclass(frozen=True)
@@ -167,7 +153,7 @@ def summary(store: StudyStore) -> StudySummary:
     held, identity = store.trials(), store.identity
     space = Space.from_record(identity["space"])
     trials = searched(held)
-    candidates, bounds = read_pick(store, held, len(trials))
+    candidates, bounds = read_pick(store, len(trials))
     seeks_one = identity["method"] in NAMES and identity["method"] not in FRONTS
     best = None if seeks_one and is_flat(trials) else best_trial(trials)
     winner = candidates[0].trial if candidates else best

@@ -26,7 +26,7 @@ from jumpcad.transforms import Array
 
 TABLES = (".csv", ".parquet")
 """Endings of tables: CSV, or Parquet for very many trials."""
-Count = Annotated[int, Field(ge=0)]
+Count = Annotated[int, Field(ge=0, lt=2**63)]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, le=1)]
 Logarithm = Annotated[float, Field(ge=-100, le=100)]

@@ -121,7 +121,7 @@ def test_who_got_far_and_fails_there_stands_behind_who_does_not(evaluator, below
 
     one = evaluator(model=Shaped(height=late))
     aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - below)
-    one.request = replace(one.request, own=aim)
+    one.request = replace(one.request, objective=aim)
     one.evaluate([edge, fine], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [fine, edge]
@@ -157,7 +157,7 @@ def test_where_scores_are_negative_a_rejected_neighbour_is_the_worst(evaluator):
     edge = SMALL.to_design([0.5, 0.5, 0.5]).model_copy(update={"compression_ratio": 0.6999})
     inside = edge.model_copy(update={"compression_ratio": 0.4})
     aim = replace(one.objective, figure=lambda metrics: metrics["fitness"] - 100.0)
-    one.request = replace(one.request, own=aim)
+    one.request = replace(one.request, objective=aim)
     one.evaluate([edge, inside], "bo", 0)
     ranked = rank_candidates(one, one.trials, seed=0, evaluations=15)
     assert [candidate.trial.design for candidate in ranked] == [inside, edge]

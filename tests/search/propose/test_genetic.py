@@ -99,7 +99,8 @@ def test_what_a_prior_study_screened_is_no_measurement(evaluator):
     measured, screened = evaluator().evaluate([SMALL.to_design(point) for point in points], "ga", 0)
     screened = replace(screened, evaluation=Evaluation(SCREENED, {GUESSED: 99.0}), score=None)
     one = evaluator(prior=[replace(measured, score=77.0), screened])
-    found = Fitness(one, "ga", 9, rejected=-5.0)(SimpleNamespace(generations_completed=0), points, None)
+    fitness = Fitness(one, "ga", 9, rejected=-5.0)
+    found = fitness.of_population(SimpleNamespace(generations_completed=0), points, None)
     assert found == [77.0, Hill()(screened.design).metrics["fitness"]]
     assert [trial.key for trial in one.trials] == [screened.key]
 
@@ -113,7 +114,7 @@ def test_names_have_no_order_for_the_genetic_algorithm_however_few_they_are(monk
         fix=FIXED, bound=["body.plate_mm=1.2:2.4"], choose=[f"bought.battery={batteries}", "process.infill=0.2,0.4"],
         workshop=load_workshop(),
     )  # fmt: skip
-    fitness = SimpleNamespace(left=3, evaluator=SimpleNamespace(space=space))
+    fitness = Fitness(SimpleNamespace(space=space, prior=()), "ga", 3, rejected=-5.0)
     evolve(fitness, space.spread(4, np.random.default_rng(0)), {}, 5)
     named = [parameter.name == "bought.battery" for parameter in space.free]
     assert asked["gene_categorical"] == named
@@ -126,11 +127,11 @@ def test_a_search_stops_after_so_many_generations_without_a_new_design_or_when_i
     fitness = Fitness(evaluator(), "ga", 99, rejected=-5.0)
     points = [[0.5, 0.5, 0.5]]
     for generation in range(PATIENCE):
-        fitness(SimpleNamespace(generations_completed=generation), points, None)
+        fitness.of_population(SimpleNamespace(generations_completed=generation), points, None)
         assert fitness.on_generation(None) is None
-    fitness(SimpleNamespace(generations_completed=PATIENCE), points, None)
+    fitness.of_population(SimpleNamespace(generations_completed=PATIENCE), points, None)
     assert fitness.on_generation(None) == "stop"
-    fitness(SimpleNamespace(generations_completed=PATIENCE + 1), [[0.4, 0.5, 0.5]], None)
+    fitness.of_population(SimpleNamespace(generations_completed=PATIENCE + 1), [[0.4, 0.5, 0.5]], None)
     assert fitness.on_generation(None) is None
     fitness.evaluator.expired = lambda: True
     assert fitness.on_generation(None) == "stop"

@@ -1,25 +1,23 @@
 """A search method is its own module and one line: choices, help, plan and study file follow."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from support.hills import SMALL, Hill
 from support.stages import stage
 
-from jumpcad.search.phases import (
-    LEARNING_PHASES,
-    METHODS,
-    NAMES,
-    Method,
-)
+from jumpcad.search.phases import LEARNING_PHASES, METHODS, NAMES, Method
 from jumpcad.search.space import Space
 from jumpcad.search.study import request
 from jumpcad.search.study.request import Request, plan_stages
+from jumpcad.search.study.run import run_stage
 
 
 @pytest.mark.parametrize("name", [name for name in METHODS if name != "paper"])  # it runs others
 def test_every_method_spends_its_evaluations_in_a_phase_of_its_name(evaluator, name):
     one = evaluator()
-    assert METHODS[name].run(one, stage(12, seed=0, initial=4, batch=2)) is False  # it did not end early
+    assert run_stage(one, replace(stage(12, seed=0, initial=4, batch=2), method=name)) is False  # it did not end early
     assert len(one.trials) == 12
     assert {trial.phase for trial in one.trials} == {name}
     learned = [trial for trial in one.trials if "theta" in trial.proposal]
@@ -31,7 +29,7 @@ def test_the_first_designs_follow_from_the_seed(evaluator, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        METHODS[name].run(one, stage(4, seed=seed, initial=4))
+        run_stage(one, replace(stage(4, seed=seed, initial=4), method=name))
         runs.append([trial.key for trial in one.trials])
     assert runs[0] == runs[1]
     assert not set(runs[1]) & set(runs[2])
@@ -45,7 +43,7 @@ def test_generations_follow_from_the_seed(evaluator, monkeypatch, name):
     runs = []
     for seed in (0, 0, 1):
         one = evaluator()
-        METHODS[name].run(one, stage(60, seed=seed))
+        run_stage(one, replace(stage(60, seed=seed), method=name))
         steps = [[trial.key for trial in one.trials if (trial.step == 0) == first] for first in (True, False)]
         runs.append(steps)
     assert runs[0] == runs[1]
@@ -62,7 +60,7 @@ def test_proposals_follow_from_the_seed(evaluator, name):
     for seed in (0, 0, 1):
         one = evaluator()
         one.evaluate([SMALL.to_variant(point) for point in points], "sample", 0)
-        METHODS[name].run(one, stage(3, seed=seed))
+        run_stage(one, replace(stage(3, seed=seed), method=name))
         runs.append([trial.key for trial in one.trials[8:]])
     assert len(runs[0]) == 3
     assert runs[0] == runs[1]
@@ -82,5 +80,5 @@ def test_a_new_method_needs_one_line(evaluator, monkeypatch):
     (planned,) = plan_stages(Request(SMALL, Hill(), method="random", evaluations=9, seed=1))
     assert (planned.method, planned.evaluations, planned.initial) == ("random", 9, 0)
     one = evaluator()
-    METHODS["random"].run(one, planned)
+    run_stage(one, planned)
     assert len(one.trials) == 9

@@ -27,7 +27,7 @@ def weighted(weight):
 
 def request(function, **changes):
     aim = find_objective(function)
-    return replace(Request(SMALL, Hill(), aim.name, "ga", evaluations=12, own=aim), **changes)
+    return replace(Request(SMALL, Hill(), aim, "ga", evaluations=12), **changes)
 
 
 def run(asked, path=None):

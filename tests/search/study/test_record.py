@@ -3,6 +3,8 @@
 import json
 import math
 from dataclasses import replace
+from functools import partial
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -129,12 +131,14 @@ def test_what_a_study_remembers_is_what_a_search_remembered() -> None:
                   [pick | {"candidates": [candidate | {"print_score": "x"}]}], [pick | {"bounds": [{}]}]],
     }  # fmt: skip
     kinds: dict[str, TypeAdapter[Any]] = REMEMBERED | {"picks": summary._PICKS}
+    held = SimpleNamespace(trial=lambda position: SCORED)
     for key, kind in kinds.items():
+        read = partial(kind.validate_json, context=held)
         for value in fine[key]:
-            validated(kind.validate_json, key, json.dumps(value))
+            validated(read, key, json.dumps(value))
         for value in [*wrong[key], "text"]:
             with pytest.raises(JumpcadError, match=f"^{key}") as caught:
-                validated(kind.validate_json, key, json.dumps(value))
+                validated(read, key, json.dumps(value))
             assert str(caught.value).isprintable()
         with pytest.raises(JumpcadError, match=f"{key}: Invalid JSON"):
-            validated(kind.validate_json, key, "{")
+            validated(read, key, "{")

@@ -28,7 +28,7 @@ QUICK = {"model": "capsule", "settings": "screening", "workers": 0}
 def test_a_front_has_its_trials_and_its_own_objective():
     found = jumpcad.optimize("nsga2", evaluations=40, **QUICK)
     energies = [trial.design.spring_energy_j for trial in found.front]
-    assert found.request.objective == "range"
+    assert found.request.aim.name == "range"
     assert energies == sorted(energies)
     assert found.hypervolume > 0.0
     assert len(found.trials) == 30

@@ -302,7 +302,7 @@ def test_a_prior_study_is_scored_by_the_objective_of_the_request(tmp_path):
         return 2.0 * figures["fitness"]
 
     aim = find_objective(doubled)
-    trials, remark = _read_prior(replace(REQUEST, objective=aim.name, own=aim, prior=tmp_path / "prior.db"))
+    trials, remark = _read_prior(replace(REQUEST, objective=aim, prior=tmp_path / "prior.db"))
     assert remark == ""
     assert len(trials) == 12
     assert any(trial.score is None for trial in trials)

@@ -103,5 +103,5 @@ def test_scores_that_are_all_alike_have_no_winner(tmp_path):
 def test_a_candidate_that_is_none_of_the_trials_is_damage(finished, tmp_path):
     moved = "UPDATE study SET value = replace(value, ': 30', ': 0') WHERE key = 'picks'"
     path = changed(finished, tmp_path, "DELETE FROM trials WHERE phase = 'bo'", moved)
-    with StudyStore.read(path) as store, pytest.raises(JumpcadError, match="damaged: a candidate"):
+    with StudyStore.read(path) as store, pytest.raises(JumpcadError, match="damaged: a trial at bo 0"):
         summary(store)
