@@ -143,7 +143,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
             raise JumpcadError(
                 f"step_s = {step_s:g}: must be above 0, and at most episode_s = {episode_s:g}, that {LONGEST_S:g}"
             )
-        self.robot = _robot(robot, workshop)
+        self.robot = robot if isinstance(robot, Robot) else robot_of(robot, workshop)
         self._robots = variants(self.robot, made) if made else (self.robot,)
         self._arenas: dict[int, Arena] = {}
         self._start, self._control, self._steps_mm = start, control, (steps_mm[0], steps_mm[1])
@@ -267,10 +267,6 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         arena = self._arena
         return {"robot": arena.robot.name, "time_s": float(arena.data.time) - self._begun_s, "stands": arena.stands,
                 "loaded": arena.loaded >= LOADED}  # fmt: skip
-
-
-def _robot(one: Robot | Design | str | Path, workshop: Workshop | None) -> Robot:
-    return one if isinstance(one, Robot) else robot_of(one, workshop)
 
 
 if gymnasium is not None:

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from jumpcad.building.used_up import used_up
 from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -17,10 +16,35 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.csv_text import to_csv
 from jumpcad.parts.mass_line import MassLine
 from jumpcad.plural import counted
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.springs.wire import CHOOSE, ORDERED
 from jumpcad.workshop import Workshop
+
+ALWAYS = (
+    "solder with flux core, 0.5 to 1 mm", "heat-shrink tube 4 mm, 0.1 m", "super glue (CA), thin", "isopropyl alcohol",
+    "grease, silicone or lithium", "light oil", "adhesive tape", "emery cloth", "spare cable ties 2.5 mm",
+    "spare foam tape",
+)  # fmt: skip
+DUST = ("gloves", "mask (FFP2)", "sandpaper")
+"""For fibre that is cut and sanded."""
+
+
+def used_up(robot: Robot) -> tuple[str, ...]:
+    """Return the names of what the guide tells the builder to use up."""
+    layout, parts = robot.layout, robot.electrical_parts.components
+    found = list(ALWAYS)
+    if "plug" in parts:
+        found.append("second battery and socket like the robot's, leads insulated")
+    if printed_pads(robot.hardware, robot.workshop):
+        found.append("super glue (CA) that stays flexible")
+    if layout.of(Cage) is not None or layout.leg_bar is not None:
+        found += DUST
+    if layout.leg_bar is not None:
+        found += ["epoxy, two components, movable for 20 min or longer, 5 g", "baking paper"]
+    return tuple(found)
+
 
 COLUMNS = (
     "kind", "item", "quantity", "ordered", "material", "grams_each", "grams", "mass_from", "eur_each", "eur",

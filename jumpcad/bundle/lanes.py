@@ -65,7 +65,12 @@ def lane(label: str, robot: Robot, trajectory: Trajectory | None) -> Lane:
         corners.append(np.stack([x, y], axis=2))
         centres.append(corners[-1][:, 0])
     path = np.average(centres, axis=0, weights=[robot.bodies[name].mass_kg for name in names])
-    outlines = {name: [(_path(outline), colour) for _, outline, colour in drawn[name]] for name in names}
+    outlines = {
+        name: [
+            ("M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in outline) + "Z", colour) for _, outline, colour in drawn[name]
+        ]
+        for name in names
+    }
     corner = np.concatenate(corners, axis=1).reshape(-1, 2)
     way = np.round(path, 1).tolist()
     return Lane(label, outlines, times, poses, way, corner.min(axis=0), corner.max(axis=0))
@@ -100,7 +105,3 @@ def _outlines(robot: Robot) -> dict[str, list[tuple[float, Array, str]]]:
         colour = "#" + "".join(f"{round(255.0 * share):02x}" for share in thing.colour)
         found[thing.body].append((float(corners[:, 1].mean()), flat[ConvexHull(flat).vertices], colour))
     return {name: sorted(parts, key=lambda part: -part[0]) for name, parts in found.items()}
-
-
-def _path(outline: Array) -> str:
-    return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in outline) + "Z"

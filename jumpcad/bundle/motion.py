@@ -76,7 +76,7 @@ def _columns(robot: Robot, moments: list[PhasePose], lengths_s: Mapping[str, flo
         "phases": shift,
         "cam_rad": [round(moment.cam_rad, TURN_DIGITS) for moment in moments],
         "gear_rad": [round(moment.gear_rad, TURN_DIGITS) for moment in moments],
-        "com_m": [_com_m(robot, moment) for moment in moments],
+        "com_m": [(_com(robot, one)[[0, 2]].round(POSITION_DIGITS) + 0.0).tolist() for one in moments],
         "frames": {name: [_seven(moment.poses[name]) for moment in moments] for name in BODY_NAMES},
     }
 
@@ -167,11 +167,6 @@ def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:
     turns = Rotation.from_quat(trajectory.quaternion_xyzw[moment]).as_matrix()
     places = trajectory.position_m[moment]
     return {name: pose_at(turn, place) for name, turn, place in zip(trajectory.body_names, turns, places, strict=True)}
-
-
-def _com_m(robot: Robot, moment: PhasePose) -> list[float]:
-    """Return x and z of the robot's centre of mass in the world (m)."""
-    return [float(value) for value in np.round(_com(robot, moment)[[0, 2]], POSITION_DIGITS) + 0.0]
 
 
 def _com(robot: Robot, moment: PhasePose) -> Array:

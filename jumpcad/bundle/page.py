@@ -7,15 +7,19 @@ import base64
 import math
 from collections.abc import Iterable, Mapping
 from html import escape
-from typing import Any
+from typing import Annotated, Any, Literal
 from urllib.parse import quote
 
+from pydantic import Field
+
 from jumpcad.building.bom import bill_of_materials, euros
-from jumpcad.bundle.compared import compared_of
 from jumpcad.bundle.limits import limit_values, limits_of, with_verdict
 from jumpcad.bundle.viewer import viewer_values
+from jumpcad.design import Design, load_design
 from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
+from jumpcad.files import Record, TomlTable, find_template, template_names
+from jumpcad.files.names import Name
 from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import errors
@@ -25,6 +29,38 @@ from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.published_robots import efficiency_band
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
 from jumpcad.version import __version__
+
+
+class Beside(TomlTable):
+    """A measurement under one reading (m, J), quantiles of its prediction, and the share of predictions below it."""
+
+    what: Literal["distance", "height", "battery"]
+    reading: Literal["centre-of-mass", "first-touchdown", "resting-place", "rise", "absolute", "battery"]
+    measured: float
+    predicted: Annotated[tuple[float, float, float], Field(strict=False)]
+    below_share: float
+
+
+class Compared(Record):
+    """A measured robot (`design`), predicted by a calibration on another."""
+
+    design: Name
+    calibrated_on: Name
+    rows: Annotated[tuple[Beside, ...], Field(strict=False, min_length=1)]
+
+    @property
+    def outside(self) -> list[str]:
+        """The quantities that no interval of eight in ten predictions holds, under whatever reading."""
+        within = {row.what for row in self.rows if row.predicted[0] <= row.measured <= row.predicted[-1]}
+        return [what for what in dict.fromkeys(row.what for row in self.rows) if what not in within]
+
+
+def compared_of(design: Design) -> Compared | None:
+    """Return what was predicted and measured of a design that is one of the study's prototypes."""
+    for name in template_names("compared"):
+        if load_design(name) == design:
+            return Compared.from_toml(find_template("compared", name))
+    return None
 
 
 def write_report(

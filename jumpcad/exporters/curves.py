@@ -94,7 +94,7 @@ def _circle(points: Array) -> Circle | None:
     if np.ptp(radii) > ON_CIRCLE_MM or np.ptp(lengths) > 2.0 * ON_CIRCLE_MM:
         return None
     radius = float(radii.mean())
-    inside = _area(points) < 0.0
+    inside = float(_cross(points, np.roll(points, -1, axis=0)).sum()) < 0.0
     return Circle(centre, radius * math.cos(math.pi / len(points)) if inside else radius)
 
 
@@ -133,7 +133,3 @@ def _through(a: Array, b: Array, c: Array) -> tuple[Array, float] | None:
 
 def _cross(a: Array, b: Array) -> Array:
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
-
-
-def _area(points: Array) -> float:
-    return 0.5 * float(_cross(points, np.roll(points, -1, axis=0)).sum())

@@ -17,7 +17,7 @@ from jumpcad.findings import Finding, at_most, lower
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.cage.place import Cage, CageBar
 from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
-from jumpcad.robot.electronics.holding import holding_findings
+from jumpcad.robot.electronics.limits import holding_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
 from jumpcad.robot.foot.toe_limits import toe_findings
 from jumpcad.robot.leg.limits import leg_findings

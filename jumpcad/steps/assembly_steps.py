@@ -4,7 +4,7 @@ The order is data (`assembly_order`). Here it is applied to a robot: its parts a
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -116,7 +116,7 @@ def _placed(
     for move in plan.moves:
         if move.retention and robot.layout.retention not in move.retention:
             continue
-        if move.lacks and _has(names, move.lacks):
+        if move.lacks and any(re.fullmatch(move.lacks, name) for name in names):
             continue
         if move.brings:
             things = list(built.get(move.brings, [])) if move.trial else built.pop(move.brings, [])
@@ -126,7 +126,3 @@ def _placed(
         if things:
             there += [] if move.trial else things
             yield MovedParts(move, tuple(things))
-
-
-def _has(names: Iterable[str], pattern: str) -> bool:
-    return any(re.fullmatch(pattern, name) for name in names)

@@ -24,7 +24,7 @@ from jumpcad.bundle.guide import operation_values
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.bundle.guide.markdown import bill_text, duration, put_on, with_bill, write_guide
 from jumpcad.bundle.limits import limits_of
-from jumpcad.bundle.step_pictures import named_views
+from jumpcad.bundle.renders import named_views
 from jumpcad.design import Design
 from jumpcad.files import template_names, templates_folder
 from jumpcad.files.rendering import environment, render

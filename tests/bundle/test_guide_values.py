@@ -17,8 +17,7 @@ from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.facts import jumps_per_charge
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.bundle.guide import guide_values as module
-from jumpcad.bundle.guide.guide_values import _jump, _prong_mm, guide_values
-from jumpcad.bundle.guide.incoming_inspection import loaded_grams, scale_range_kg
+from jumpcad.bundle.guide.guide_values import _jump, _prong_mm, guide_values, loaded_grams, scale_range_kg
 from jumpcad.bundle.guide.operation_values import operation_values, pin_share, state_off_v
 from jumpcad.design import load_design
 from jumpcad.dimensions import AXLE_FLOOR_MM

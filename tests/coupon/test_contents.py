@@ -8,8 +8,7 @@ import pytest
 from support.fits import with_fits_apart
 
 from jumpcad.bundle.coupon_folder import export_coupon
-from jumpcad.coupon.contents import coupon_values
-from jumpcad.coupon.pictures import GROUPS
+from jumpcad.coupon.contents import GROUPS, coupon_values
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop
 from jumpcad.files.rendering import fill

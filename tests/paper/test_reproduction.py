@@ -3,7 +3,7 @@
 import pytest
 from support import needs
 
-from jumpcad.bundle.compared import compared_of
+from jumpcad.bundle.page import compared_of
 from jumpcad.design import load_design
 from jumpcad.files import template_names
 from jumpcad.mechanism.capsule import capsule_robot

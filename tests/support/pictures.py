@@ -3,14 +3,14 @@
 import pytest
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
-from jumpcad.bundle import renders, step_pictures
+from jumpcad.bundle import renders
 
 
 def with_few_pictures(patch: pytest.MonkeyPatch, frames: int = 3) -> None:
     """Draw a jump in few pictures, and three steps of the assembly."""
-    views = step_pictures.named_views
+    views = renders.named_views
     patch.setattr(renders, "JUMP_FRAMES", frames)
-    patch.setattr(step_pictures, "named_views", lambda robot: views(robot)[:3])
+    patch.setattr(renders, "named_views", lambda robot: views(robot)[:3])
 
 
 def with_plain_figures(patch: pytest.MonkeyPatch) -> None:

@@ -10,13 +10,14 @@ import numpy as np
 
 from jumpcad.building.bom import Bill
 from jumpcad.bundle.drawings.soldering import soldering_svg
+from jumpcad.bundle.drawings.spring_sheet import scale_in_words
 from jumpcad.bundle.drawings.wiring import wires
-from jumpcad.bundle.guide.incoming_inspection import inspection_values
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg
-from jumpcad.dimensions import AXLE_END_PLAY_MM, MOTOR_CLAMP_MM
+from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
+from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
+from jumpcad.drive import TorsionSpring
 from jumpcad.drive.socket import window_mm
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
@@ -29,6 +30,37 @@ from jumpcad.simulation import headline
 from jumpcad.steps.assembly_order import ORDER
 from jumpcad.steps.assembly_steps import Step
 from jumpcad.steps.step_views import motor_sense
+
+REAMED_MM = 0.1
+"""Of a reamed bore over its rod, in diameter."""
+
+
+def loaded_grams(spring: TorsionSpring) -> float:
+    """Return what a scale reads below an arm that is level and loaded as at the end of the lift."""
+    return 1000.0 * spring.torque_nmm / spring.arms.lever_mm / GRAVITY_M_S2
+
+
+def scale_range_kg(robot: Robot) -> float:
+    """Return the range of a scale for the springs' test, in whole kilograms: a stiff spring's reading."""
+    scatter = robot.workshop.safety.spring_rate_scatter
+    return math.ceil((1.0 + scatter) * loaded_grams(robot.layout.drive.spring) / 1000.0)
+
+
+def inspection_values(robot: Robot) -> dict[str, Any]:
+    """Return what accepts a spring (g, °, mm, MPa), by the names that templates use."""
+    spring, (least, most) = robot.layout.drive.spring, torque_shares(robot)
+    return {
+        "reamed_mm": robot.layout.axle_mm + REAMED_MM,
+        "drawn_scale": scale_in_words(spring),
+        "shank_mm": math.floor(2.0 * spring.mandrel_mm) / 2.0,
+        "grams": loaded_grams(spring),
+        "least_share": least,
+        "most_share": most,
+        "early_share": early_torque_share(robot),
+        "weak_share": least_energy_share(robot),
+        "scale_kg": scale_range_kg(robot),
+    }
+
 
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""

@@ -1,14 +1,21 @@
 """The chain of voltages, the motor's current and torque when it is blocked, and the wiring."""
 
+import itertools
 import math
 from collections.abc import Iterator
+
+import numpy as np
 
 from jumpcad.electronics.chain import Link, chain
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.supply import Supply
-from jumpcad.findings import Basis, Finding, at_most, limit
+from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, limit
 from jumpcad.robot.electronics import wiring
+from jumpcad.robot.electronics.leads import way_in
+from jumpcad.robot.layout import moving_obstacles
+from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.room import bar, clearance
 
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
@@ -132,3 +139,74 @@ def jumps_per_charge(robot: Robot) -> int:
     """Return how often a full battery winds the springs, without what the boards take while the robot waits."""
     usable = USABLE * robot.supply.usable_j
     return int(usable / robot.layout.drive.train.electrical_j)
+
+
+HOLDING_BASIS = {
+    "electronics_hold": Basis(
+        "2·m·a ≤ seats.strap_n/safety.strength_factor (N), tie_n for boards; a = landing force/robot's mass, landing "
+        "force = m·g + U/safety.landing_stop_mm",
+        "sudden load on an elastic support: twice (Shigley, ch. 4); strap and tie: judgement, makers' usual ratings",
+    )
+}
+
+
+def holding_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `electronics_hold`: the part that uses most of what its strap or tie holds, at twice the landing's blow.
+
+    The landing's force over the robot's mass is the acceleration of everything on the body; a part that is suddenly
+    stopped by an elastic strap is loaded twice as much.
+    """
+    seats, case = robot.workshop.seats, load_case(robot)
+    acceleration = case.landing_n / robot.mass_kg
+    held = {"battery": ("strap", seats.strap_n)}
+    held |= dict.fromkeys((*robot.layout.electronics.boards, "plug", "capacitor"), ("cable tie", seats.tie_n))
+    masses = {item.name: item.mass_kg for item in robot.hardware if item.name in held}
+    loads = {name: 2.0 * mass * acceleration for name, mass in masses.items()}
+    worst = max(loads, key=lambda name: loads[name] / held[name][1])
+    what, allowed = held[worst][0], held[worst][1] / robot.workshop.safety.strength_factor
+    yield at_most(
+        "electronics_hold", loads[worst], allowed, "N",
+        f"at a landing of {acceleration:.0f} m/s² the {worst} pulls with {loads[worst]:.1f} N on its {what}, which "
+        f"holds {allowed:.1f} N",
+        higher("safety.landing_stop_mm", note="a softer floor") + choose("a lighter", "bought.battery"),
+    )  # fmt: skip
+
+
+NEEDED_MM = 1.5
+"""From a lead's middle to what moves; judgement: a lead of 1.2 mm and a millimetre of air."""
+APART_MM, AROUND_MM = 1.0, 1.5
+"""Between the points that are measured, and how far around a lead across the robot things count."""
+FAR_MM = 100.0
+"""Larger distances are not told apart."""
+LEADS_BASIS = {
+    "wires_clear": Basis(
+        f"least distance of a lead's middle from what moves, along its way ≥ {NEEDED_MM:g} mm",
+        "geometry; judgement: a lead of 1.2 mm and a millimetre of air",
+    )
+}
+
+
+def lead_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `wires_clear`: the least distance of the leads of sensor and motor from what moves."""
+    layout = robot.layout
+    moving = moving_obstacles(layout)
+    gaps: dict[str, float] = {}
+    tray = layout.electronics.middle_mm(layout.tray_mm)
+    for role in ("sensor", "motor"):
+        way = way_in(layout, role)
+        if len(way) < 2:
+            continue
+        ends = [*way, np.array([tray[0], way[-1][1], tray[1]])]
+        for start, end in itertools.pairwise(ends):
+            y = (min(start[1], end[1]) - AROUND_MM, max(start[1], end[1]) + AROUND_MM)
+            points = bar(start[[0, 2]], end[[0, 2]], APART_MM)
+            gaps[role] = min(gaps.get(role, np.inf), float(clearance(moving, points, (0.0, 0.0), 0.0, y, FAR_MM).min()))
+    if gaps:
+        role = min(gaps, key=lambda name: gaps[name])
+        gap = min(gaps[role], FAR_MM)
+        far = "at least " if gap == FAR_MM else ""
+        yield at_least(
+            "wires_clear", gap, NEEDED_MM, "mm",
+            f"the {role}'s leads pass {far}{gap:.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
+            higher("d_coef", "carrying_link_mm", note="a longer body"),
+        )  # fmt: skip

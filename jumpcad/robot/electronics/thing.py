@@ -1,6 +1,6 @@
 """Its doors."""
 
-from jumpcad.robot.electronics import holding, lead_limits, limits
+from jumpcad.robot.electronics import limits
 from jumpcad.robot.electronics.trays import trays
 from jumpcad.robot.electronics.wired import electronics
 from jumpcad.robot.thing import Check, Thing
@@ -10,7 +10,7 @@ ELECTRONICS = Thing(
     electronics,
     (
         Check(limits.electronics_findings, limits.BASIS),
-        Check(holding.holding_findings, holding.BASIS),
-        Check(lead_limits.lead_findings, lead_limits.BASIS, cheap=False),
+        Check(limits.holding_findings, limits.HOLDING_BASIS),
+        Check(limits.lead_findings, limits.LEADS_BASIS, cheap=False),
     ),
 )

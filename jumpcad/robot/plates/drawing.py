@@ -37,7 +37,8 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     label = engravable(layout.label).strip()
     motor, lateral = layout.drive.train.motor, layout.lateral
     floor = layout.floor_mm
-    blank, bores = blank_of(layout, holes.fits.wall_min_mm), _bores(layout, holes)
+    blank, pins = blank_of(layout, holes.fits.wall_min_mm), (*layout.axles.values(), layout.spring_pin_mm)
+    bores = union(hole(holes.running(layout.axle_mm), place) for place in pins)
     whole, through = outline(layout, blank, "left"), _openings(layout, holes, "left")
     y0, y1 = lateral.left_plate
     shaft = hole(holes.loose(motor.shaft_mm), layout.motor_mm)
@@ -82,11 +83,6 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     cut += [pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
     cut += [horn_openings(layout, holes)] if layout.of(Cage) else []
     return union(cut)
-
-
-def _bores(layout: Layout, holes: HoleSizes) -> Region:
-    """Return the plates' bores for the axles and the springs' pin."""
-    return union(hole(holes.running(layout.axle_mm), place) for place in (*layout.axles.values(), layout.spring_pin_mm))
 
 
 def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> tuple[float, float, Region]:

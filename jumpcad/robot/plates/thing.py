@@ -1,6 +1,6 @@
 """Its doors."""
 
-from jumpcad.robot.plates import engraving_limits, limits
+from jumpcad.robot.plates import limits
 from jumpcad.robot.plates.bought import standoffs
 from jumpcad.robot.plates.drawing import plates
 from jumpcad.robot.thing import Check, Thing
@@ -10,6 +10,6 @@ PLATES = Thing(
     standoffs,
     (
         Check(limits.seat_finding, limits.BASIS),
-        Check(engraving_limits.engraving_findings, engraving_limits.BASIS, cheap=False),
+        Check(limits.engraving_findings, limits.ENGRAVING_BASIS, cheap=False),
     ),
 )

@@ -21,7 +21,7 @@ from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sensor.place import GEAR_PLAY_MM, TRACK_WALL_MM, SensorPlace
 from jumpcad.robot.sizing import dog_inside_mm
-from jumpcad.robot.train.motor_cap import motor_cap
+from jumpcad.robot.train.motor_socket import motor_cap
 from jumpcad.solids.outline import Region, d_bore, disc, hole, polygon, rectangle, ring, rounded, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z

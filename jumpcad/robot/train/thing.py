@@ -1,7 +1,7 @@
 """Its doors."""
 
 from jumpcad.robot.thing import Check, Thing
-from jumpcad.robot.train import blocked, limits
+from jumpcad.robot.train import limits
 from jumpcad.robot.train.bought import motor
 from jumpcad.robot.train.drawing import train
 
@@ -10,6 +10,6 @@ TRAIN = Thing(
     motor,
     (
         Check(limits.drive_findings, limits.BASIS),
-        Check(blocked.blocked_findings, blocked.BASIS),
+        Check(limits.blocked_findings, limits.BLOCKED_BASIS),
     ),
 )

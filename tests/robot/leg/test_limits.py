@@ -16,7 +16,7 @@ from jumpcad.findings import errors
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.stop.limits import stop_findings
-from jumpcad.robot.train.blocked import blocked_findings
+from jumpcad.robot.train.limits import blocked_findings
 from jumpcad.workshop.workshop import Role
 
 OF_ROLES = {

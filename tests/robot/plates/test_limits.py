@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from jumpcad.robot.plates.engraving_limits import engraving_findings
+from jumpcad.robot.plates.limits import engraving_findings
 from jumpcad.robot.robot import Robot
 
 
