@@ -331,11 +331,12 @@ class PrintedModel(RobotModel):
         if jump.verdict != "jump":
             return -math.inf
         size = quick_size_m(design)
-        figures = _figures(jump) | {"size_m": size, "body_lengths": jump.touchdown_distance_m / size}
+        figures = _figures(jump)
+        figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
         try:
             return objective.score(Evaluation("jump", figures)) or 0.0
         except JumpcadError:
-            return float(jump.touchdown_distance_m)
+            return figures["touchdown_distance_m"]
 
     @cached_property
     def estimate_engine(self) -> str:
