@@ -65,8 +65,7 @@ def begun(evaluator: Evaluator) -> list[Trial]:
 def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[Array]:
     """Return points (dimension,) with which the quick robot jumps, the best first; none for other robots.
 
-    The best of many that are evenly spread are bred (differential evolution: Storn and Price 1997; toward the better
-    ones: Zhang and Sanderson 2009).
+    Of many that are evenly spread, better ones are `bred`.
     """
     quick = getattr(evaluator.model, "quick_score", None)
     if quick is None:
@@ -82,13 +81,22 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     points, scores = points[order], scores[order]
     count = min(BRED, int(np.isfinite(scores).sum()))
     for _ in range(GENERATIONS if count >= 8 else 0):
-        parents, better = points[:count], points[np.argsort(-scores[:count], kind="stable")[: count // 4]]
-        ways = better[generator.integers(len(better), size=count)] - parents
-        ways += parents[generator.integers(count, size=count)] - parents[generator.integers(count, size=count)]
-        ways *= generator.uniform(0.3, 0.9, (count, 1)) * (generator.random(parents.shape) < CROSSED)
-        children = space.snap((parents + ways).round(DIGITS))
-        found = scored(children)
-        gained = np.flatnonzero(found > scores[:count])
-        points[gained], scores[gained] = children[gained], found[gained]
+        children = space.snap(bred(points[:count], generator).round(DIGITS))
+        both, their = np.vstack([points[:count], children]), np.append(scores[:count], scored(children))
+        better = np.arange(count) + count * (their[count:] > their[:count])
+        order = better[np.argsort(-their[better], kind="stable")]
+        points[:count], scores[:count] = both[order], their[order]
     order = np.argsort(-scores, kind="stable")
     return [points[index] for index in order if math.isfinite(scores[index])]
+
+
+def bred(parents: Array, generator: np.random.Generator) -> Array:
+    """Return points (n, d), each from one of the parents (n, d), of which the first are the best.
+
+    Differential evolution (Storn and Price, J. Global Optimization 1997), toward one of the best quarter (Zhang and
+    Sanderson, IEEE Trans. Evolutionary Computation 2009).
+    """
+    count = len(parents)
+    toward, one, other = (parents[generator.integers(most, size=count)] for most in (max(count // 4, 1), count, count))
+    factors = generator.uniform(0.3, 0.9, (count, 1)) * (generator.random(parents.shape) < CROSSED)
+    return np.clip(parents + factors * (toward - parents + one - other), 0.0, 1.0)
