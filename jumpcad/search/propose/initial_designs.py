@@ -1,7 +1,7 @@
 """The first designs of a search: half are the best of many by a quick model, the others are evenly spread.
 
-Of evenly spread designs of the printed robot, six in seven are rejected. The capsule robot is simulated in
-milliseconds, and designs with which it jumps far are probably good. The other half covers errors of the quick model.
+Of evenly spread designs of the printed robot, six in seven are rejected. A quick robot is simulated in milliseconds;
+designs with which it jumps far are probably good. The other half covers errors of the quick model.
 """
 
 import itertools
