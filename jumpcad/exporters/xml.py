@@ -3,7 +3,6 @@
 import math
 import re
 import warnings
-import xml.etree.ElementTree as ET
 from typing import TypeAlias
 
 import numpy as np
@@ -26,14 +25,6 @@ SWING_RAD = math.pi / 2
 """Added to the travel on either side: simulators treat limits as stops, and legs swing past rest."""
 
 
-def add(parent: ET.Element, tag: str, text: Value | None = None, **attributes: Value) -> ET.Element:
-    """Append an element with text and attributes; numbers and arrays keep all their digits."""
-    child = ET.SubElement(parent, tag, {name.rstrip("_"): written(value) for name, value in attributes.items()})
-    if text is not None:
-        child.text = written(text)
-    return child
-
-
 def written(value: Value) -> str:
     """Return a value as text: the shortest decimals that read back as the same doubles, separated by blanks."""
     if isinstance(value, str):
@@ -48,18 +39,6 @@ def shortened(value: Value) -> str:
     numbers = [float(number) for number in np.ravel(value)]
     least = 10.0**-DIGITS * max(map(abs, numbers))
     return " ".join(f"{number if abs(number) > least else 0.0:.{DIGITS}g}" for number in numbers)
-
-
-def document(root: ET.Element) -> str:
-    """Return an XML document, indented.
-
-    Raises
-    ------
-    JumpcadError
-        If a text holds a character that no XML document may hold.
-    """
-    ET.indent(root)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + allowed(ET.tostring(root, encoding="unicode")) + "\n"
 
 
 def allowed(text: str) -> str:

@@ -4,7 +4,7 @@ A maker is `jumpcad.mechanism.model` for the five-bar, whose frames it tells, an
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import JumpcadError
-from jumpcad.transforms import Array, ByValue, pose_at, rotation_about_y
+from jumpcad.transforms import Array, ByValue, chained, pose_at, rotation_about_y
 
 Surface = Literal["foot", "body"]
 
@@ -229,12 +229,12 @@ class Multibody(ByValue):
         """Return a joint by its name."""
         return next(joint for joint in self.joints if joint.name == name)
 
-    def poses(self, coordinates: Array) -> dict[str, Array]:
-        """Return all frames (4, 4) at the root's height and pitch and the joints' angles (2 + joints,)."""
-        placed = {self.root: pose_at(rotation_about_y(coordinates[1]), (0.0, 0.0, coordinates[0]))}
-        for joint, angle in zip(self.joints, coordinates[2:].tolist(), strict=True):
+    def poses(self, root: Array, angles_rad: Iterable[float]) -> dict[str, Array]:
+        """Return all frames (4, 4) from that of the root and the coordinates of the joints."""
+        placed = {self.root: root}
+        for joint, angle in zip(self.joints, angles_rad, strict=True):
             turn = rotation_about_y(joint.rest_angle_rad + angle)
-            placed[joint.child] = np.asarray(placed[joint.parent] @ pose_at(turn, joint.origin_m))
+            placed[joint.child] = chained(placed[joint.parent], pose_at(turn, joint.origin_m))
         return placed
 
     @cached_property
@@ -249,7 +249,8 @@ class Multibody(ByValue):
         known = np.isfinite(stated)
 
         def gaps(coordinates: Array, share: float = 1.0) -> Array:
-            placed = self.poses(coordinates)
+            root = pose_at(rotation_about_y(coordinates[1]), (0.0, 0.0, coordinates[0]))
+            placed = self.poses(root, coordinates[2:].tolist())
             apart = [
                 (placed[loop.body_a] @ [*loop.point_a_m, 1.0] - placed[loop.body_b] @ [*loop.point_b_m, 1.0])[[0, 2]]
                 for loop in self.loops

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from jumpcad.mechanism.model import BODY, Mechanism, Multibody
-from jumpcad.transforms import Array, ByValue, chained, pose_at, rotation_about_y
+from jumpcad.mechanism.model import Mechanism, Multibody
+from jumpcad.transforms import Array, ByValue, pose_at, rotation_about_y
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +79,5 @@ def _at(mechanism: Mechanism, leg_rad: float) -> ReleasePose:
 def body_poses(mechanism: Mechanism, loaded: float = 0.0) -> dict[str, Array]:
     """Return the pose (4, 4) of every body's frame in the world (m) of a standing robot."""
     stance = standing(mechanism, loaded)
-    poses = {BODY: pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)}
-    for joint in mechanism.joints:
-        turn = rotation_about_y(joint.rest_angle_rad + stance.joint_rad[joint.name])
-        poses[joint.child] = chained(poses[joint.parent], pose_at(turn, joint.origin_m))
-    return poses
+    root = pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)
+    return mechanism.poses(root, [stance.joint_rad[joint.name] for joint in mechanism.joints])

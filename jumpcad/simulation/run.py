@@ -252,7 +252,8 @@ class Run:
                 self._brake()
             self._advance(every)
             state = self.world.state()
-            states.append(state)
+            if not self._five_bar:
+                states.append(state)
             above = mechanics.lowest_m(state) > 0.0
             if self.world.loaded() or (off and not above):
                 here, start = (mechanics.centre_of_mass_m(one)[0] for one in (state, self.loaded))

@@ -112,7 +112,7 @@ def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> No
     wound = {"leg": -robot.spring.wind_rad}
     joints = tuple(replace(joint, loaded_rad=wound.get(joint.name)) for joint in robot.joints)
     chain = Multibody("five-bar", robot.bodies, joints, robot.loops, robot.springs, friction=robot.friction)
-    jump, other = simulate(chain, Settings(flight="simulated")), simulate(robot, engine="planar")
+    jump, other = simulate(chain, Settings(flight="simulated", trajectory=True)), simulate(robot, engine="planar")
     assert jump.takeoff_speed_m_s == pytest.approx(other.takeoff_speed_m_s, rel=0.001)
     assert jump.com_rise_m == pytest.approx(other.com_rise_m, rel=0.002)
     assert jump.takeoff_time_s == pytest.approx(other.takeoff_time_s, abs=2e-4)
@@ -120,6 +120,7 @@ def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> No
     assert jump.turn_deg == pytest.approx(other.turn_deg, rel=0.02)  # nearly five times around
     left = [one.touchdown_pitch_deg - one.turn_deg for one in (jump, other)]  # pitch at take-off, and whole turns
     assert math.remainder(left[0] - left[1], 360.0) == pytest.approx(0.0, abs=1.0)
+    assert jump.trajectory.time_s[-1] == pytest.approx(jump.takeoff_time_s + jump.air_time_s)
     assert jump.clears_bar_mm == pytest.approx(other.clears_bar_mm, rel=0.002)
 
 
