@@ -37,7 +37,7 @@ def check_glossary() -> str:
     for check in checks.CHECKS:
         subjects = [robot, *quick] if check.cheap else [robot]
         found.setdefault(check.find.__module__, []).extend(chain.from_iterable(map(check.find, subjects)))
-        bases[check.find.__module__] = check.basis
+        bases[check.find.__module__] = {**bases.get(check.find.__module__, {}), **check.basis}
     found[planar.__name__], bases[planar.__name__] = [*jumpcad.simulate(robot, engine="planar").findings], planar.BASIS
     words = (
         "Every limit that `jumpcad check` knows, and those of a simulated jump. “Found” is what it says of "

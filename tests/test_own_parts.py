@@ -194,7 +194,7 @@ REFUSED = {
     "a mount without a base": (
         {"body": {"plate_mm": 9.5}},
         r"^no room for the sensor's mount: the base of its switch is -0\.\d\d mm outside the left plate, which is "
-        r"9\.5 mm thick, 0\.35 mm are needed: choose a thinner body\.plate_mm",
+        r"9\.5 mm thick, 0\.35 mm are needed: lower body\.plate_mm",
     ),
 }  # fmt: skip
 

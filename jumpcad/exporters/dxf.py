@@ -57,7 +57,8 @@ def write_dxf(cut: Region, engraved: Region) -> str:
 
     def draw(space: "Modelspace") -> None:
         for layer, region in ((CUT, cut), (ENGRAVE, engraved)):
-            _outlines(space, layer, region)
+            for contour in region.to_polygons():
+                space.add_lwpolyline(contour.tolist(), close=True, dxfattribs={"layer": layer})
 
     return dxf_document({CUT: RED, ENGRAVE: BLUE}, draw)
 
@@ -77,11 +78,6 @@ def dxf_document(layers: Mapping[str, int], draw: "Callable[[Modelspace], None]"
             document.classes.add_class(name)
         document.write(stream)
     return stream.getvalue()
-
-
-def _outlines(space: "Modelspace", layer: str, region: Region) -> None:
-    for contour in region.to_polygons():
-        space.add_lwpolyline(contour.tolist(), close=True, dxfattribs={"layer": layer})
 
 
 @contextmanager

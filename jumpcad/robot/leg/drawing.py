@@ -45,7 +45,8 @@ def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
     pin = (layout.leg_pin_mm, 0.0)
     hub_radius, stop = holes.hub_radius_mm, layout.stop
-    place, beam = leg_bar_place(layout, holes), _leg_beam(layout)
+    place = leg_bar_place(layout, holes)
+    beam = tapered_bar((0.0, 0.0), ankle, sections.leg_root_mm, sections.leg_tip_mm)
     outer = union([beam, disc(2.0 * sections.eye_radius_mm, ankle)])
     inner = union(
         [
@@ -116,11 +117,6 @@ def front_bar_place(layout: Layout, holes: HoleSizes) -> BarPlace | None:
         return None
     first = holes.eye(layout.axle_mm) / 2.0 + 2.0 * holes.fits.wall_mm
     return bar_place("front link", layout.leg_bar, first, 0.0, layout.design.l3_mm - first, bends=False)
-
-
-def _leg_beam(layout: Layout) -> Region:
-    sections, ankle = layout.sections, (layout.design.l2_mm, 0.0)
-    return tapered_bar((0.0, 0.0), ankle, sections.leg_root_mm, sections.leg_tip_mm)
 
 
 def _before(x_mm: float) -> Region:
