@@ -23,6 +23,16 @@ def told(kind, text, workshop=None):
     return changed_parameter(kind, name, values, workshop)
 
 
+def test_a_leg_moves_by_factors_where_its_range_is_wide_and_by_millimetres_where_not():
+    """A step is as long as in the study's range: what counts as 1 is the logarithm of 2, or all of the range."""
+    wide, study = SearchParameter("carrying_link_mm", 20.0, 250.0), SearchParameter("carrying_link_mm", 100.0, 200.0)
+    assert wide.at([0.0, 0.5, 1.0]) == pytest.approx([20.0, math.sqrt(20.0 * 250.0), 250.0])
+    assert study.at([0.5]) == [150.0]
+    assert [wide.unit(number) for number in wide.at([0.3, 0.7])] == pytest.approx([0.3, 0.7])
+    assert (wide.scale, study.scale) == pytest.approx((math.log(2.0) / math.log(12.5), 1.0))
+    assert SearchParameter("rest_angle_deg", 15.0, 90.0).scale == pytest.approx(50.0 / 75.0)
+
+
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_a_search_may_go_to_the_ends_of_what_a_design_can_be_and_no_further(name):
     ends = physical_limits(name)

@@ -16,7 +16,7 @@ from jumpcad.process.blas_threads import one_thread
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
-from jumpcad.search.propose.proposal_loop import ProposalLoop
+from jumpcad.search.propose.proposal_loop import WITHIN, WITHIN_AT_ALL, ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
@@ -78,9 +78,10 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             proposal = beside or loop.propose(ask, best)
             if proposal is None:
                 break
-            if polls and beside is None and proposal.promised_gain(best) < HOPELESS:
-                wider = FARTHEST ** generator.random()
-                proposal = loop.beside(trials, admits, generator, wider) or proposal
+            holds = beside is not None or loop.holds(proposal)
+            if polls and beside is None and not (holds and proposal.promised_gain(best) >= HOPELESS):
+                wider, within = FARTHEST ** generator.random(), WITHIN if holds else WITHIN_AT_ALL
+                proposal = loop.beside(trials, admits, generator, wider, within) or proposal
             proposals.append(proposal)
         return proposals
 

@@ -38,8 +38,9 @@ DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
 PARENTS = 16
 """Points with the best estimates of which others are bred; judgement."""
-WITHIN = 0.005
-"""Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
+WITHIN, WITHIN_AT_ALL = 0.005, 0.1
+"""Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by, and more
+where all that was proposed has no room."""
 
 
 class ProposalLoop:
@@ -118,18 +119,19 @@ class ProposalLoop:
         admits: Callable[[Variant], bool],
         generator: np.random.Generator,
         wider: float = 1.0,
+        within: float = WITHIN,
     ) -> Proposal | None:
-        """Return the neighbour of the best of some trials with the best estimate; None where none is about as good.
+        """Return what lies near the best of some trials, or is bred, with the best estimate; None of a worse one.
 
         `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are tried.
+        `within` is a share of the best's estimate.
         """
         best = best_trial(trials)
         if not self._estimates or best is None:
             return None
         assert self._dry_run is not None
         points = neighbours(self._space, best, generator, wider)
-        if wider == 1.0:
-            points += self._bred(generator)
+        points += self._bred(generator)
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
         self._dry_run.look_at(one for _, one in new)
         offers, known = [], self._dry_run.known(self._trials, self.tried)
@@ -137,11 +139,18 @@ class ProposalLoop:
             self.tried += [] if one.key in known else [point]
             offers.append((self._dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
-        if found is None or score < (1.0 - WITHIN) * (self._dry_run.score(best.variant, required=False) or math.inf):
+        if found is None or score < (1.0 - within) * (self._dry_run.score(best.variant, required=False) or math.inf):
             return None
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
         return found
+
+    def holds(self, proposal: Proposal) -> bool:
+        """Whether a proposal holds in a dry run, of which it is learned."""
+        if self._dry_run is None or self._dry_run.failure(proposal.variant) is None:
+            return True
+        self.tried.append(proposal.unit)
+        return False
 
     def _bred(self, generator: np.random.Generator) -> list[Array]:
         """Return points (d,) bred from those with the best estimates: other hills than the best's are climbed too."""

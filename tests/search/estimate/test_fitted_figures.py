@@ -1,11 +1,13 @@
 """What is fitted to robots that were built: which figures, and from which robots."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.quick import SPACE
 
+from jumpcad.findings import bare
 from jumpcad.search.estimate import fitted_figures
 from jumpcad.search.estimate.estimated_robot import LAID
 from jumpcad.search.estimate.fitted_figures import FEW, MARK, FittedFigures, features
@@ -28,6 +30,21 @@ def test_features_of_two_coordinates_are_one_both_and_their_three_products():
     assert features(np.array([[0.0, 0.75], [0.5, 1.0]])).tolist() == [
         [1.0, -1.0, 0.5, 1.0, -0.5, 0.25], [1.0, 0.0, 1.0, 0.0, 0.0, 1.0],
     ]  # fmt: skip
+
+
+def test_margins_of_limits_that_reject_are_fitted_too():
+    """A limit that is missed beyond 0.4 of the first coordinate, and one that nothing misses."""
+    trials = []
+    for trial in trials_at(SPACE.spread(64, np.random.default_rng(1)), lambda x: {"first": x[0]}):
+        margin = 0.4 - trial.evaluation.metrics["first"]
+        findings = (bare("weak", "error" if margin < 0.0 else "info", margin, "N"), bare("strong", "info", 1.0, "N"))
+        trials.append(replace(trial, evaluation=replace(trial.evaluation, findings=findings)))
+    fit = FittedFigures.of(SPACE, trials, CENTRE)
+    for first in (-0.5, 0.0, 0.9):
+        point = np.append((first + 1.0) / 2.0, CENTRE[1:])
+        margins, kept = fit.margins(fit.predict(point, NONE))
+        assert margins == {"weak": pytest.approx(0.4 - first, abs=0.1)}
+        assert kept == (first < 0.4)
 
 
 def test_a_mass_is_fitted_by_its_logarithm_and_stays_positive():
