@@ -41,11 +41,6 @@ def check_arguments(function: Callable[P, R]) -> Callable[P, R]:
     Annotations are classes, runtime protocols, `Any`, or these joined by `|`. A `float` may be an int, but no bool is a
     number. A number of another library, such as numpy's, becomes Python's. The items of sequences are checked too,
     those of mappings are not.
-
-    Raises
-    ------
-    JumpcadError
-        From the returned function: what it takes, what it was given, and how to make what it takes.
     """
     signature = inspect.signature(function)
     plain = [one.replace(annotation=inspect.Parameter.empty) for one in signature.parameters.values()]

@@ -69,13 +69,7 @@ def _varied(robot: Robot, name: str, rng: np.random.Generator) -> Robot:
 def export_variants(
     robot: Robot, made: Sequence[Robot], folder: str | Path, kind: Format = "mjcf", force: bool = False
 ) -> Bundle:
-    """Write variants of a robot to a folder, with one set of meshes, as in a bundle, and a table of what differs.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything else, or cannot be written.
-    """
+    """Write variants of a robot to a folder, with one set of meshes, as in a bundle, and a table of what differs."""
     require_place(folder)
     facts = {"variants": [one.name for one in made], "format_of_variants": kind}
     return write_folder(folder, f"{robot.name}-variants", facts, _contents(robot, made, kind), force)

@@ -56,11 +56,6 @@ def solve_bearing_and_drive(
 
     Where none does, it is the strongest one, of which `jumpcad.checks` then warns. `plate_pins_rad` are the directions
     of the plates' pin that the springs may have, the preferred one first.
-
-    Raises
-    ------
-    CannotBuildError
-        If no drive meets its limits, or there is no room for the hub bearing; the message says what to change.
     """
     linkage, roller = Linkage(design), roller_bearing(workshop)
     bearings = hub_bearings(workshop)

@@ -207,13 +207,7 @@ def _seconds(time_s: float | None) -> str:
 
 
 def _priced(items: Sequence[BillLine], workshop: Workshop) -> Bill:
-    """Return the bill of lines with prices: filament by mass, articles by the beginnings of names.
-
-    Raises
-    ------
-    JumpcadError
-        If the workshop has a price of what no article's name begins with.
-    """
+    """Return the bill of lines with prices: filament by mass, articles by the beginnings of names."""
     known = [*(item.name for item in items), *shipped_prices().pieces]
     for key in workshop.prices_eur:
         if not any(name.startswith(key) or key.startswith(name) for name in known):

@@ -23,13 +23,7 @@ NOT_IN_EVERY_ROBOT = (
 
 
 def weighed_part(drawing: Drawing, workshop: Workshop) -> Part:
-    """Return a drawing with its material and the mass of one copy.
-
-    Raises
-    ------
-    JumpcadError
-        If the user's weight is off by more than `WEIGHED_OFF`.
-    """
+    """Return a drawing with its material and the mass of one copy."""
     material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
     model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
     mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)

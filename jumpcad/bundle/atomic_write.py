@@ -66,12 +66,6 @@ def write_folder(
         Path and content of every file, except the manifest.
     force
         Whether to replace another bundle too, and files that a user edited, or added under a path of the bundle.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything else, a user's file would be lost, the folder cannot be written, or a file is none
-        that a bundle may have.
     """
     target = _writable_folder(folder)
     versions = {"jumpcad": __version__} | {library: importlib.metadata.version(library) for library in LIBRARIES}
@@ -87,38 +81,20 @@ def write_folder(
 def change_files(
     bundle: Bundle, contents: Mapping[str, str | bytes], versions: Mapping[str, str], force: bool = False
 ) -> Bundle:
-    """Write files of a bundle, old or new ones; the manifest then lists them, and `versions` of what made them.
-
-    Raises
-    ------
-    JumpcadError
-        If a user's file would be lost, or the folder cannot be read or written.
-    """
+    """Write files of a bundle, old or new ones; the manifest then lists them, and `versions` of what made them."""
     manifest = {**bundle.manifest, "versions": {**bundle.manifest["versions"], **versions}}
     return _put(Bundle(_writable_folder(bundle.folder), manifest), bundle, contents, set(contents), force)
 
 
 def require_place(folder: str | Path) -> None:
-    """Require, before a bundle is made, that it can be written to a folder: `write_folder` looks again.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything but a bundle, is or holds the current folder, or cannot be written.
-    """
+    """Require, before a bundle is made, that it can be written to a folder: `write_folder` looks again."""
     target = _writable_folder(folder)
     _bundle_in(target)
     require_writable(target.parent)
 
 
 def require_unedited(bundle: Bundle, paths: Iterable[str], force: bool = False) -> None:
-    """Require that a user has not edited files: `change_files` would reject them, but only after they were made.
-
-    Raises
-    ------
-    JumpcadError
-        If some were edited; it names them. Or if the bundle's folder cannot be replaced.
-    """
+    """Require that a user has not edited files: `change_files` would reject them, but only after they were made."""
     with _plain_errors(bundle.folder):
         _replaceable(bundle, dict.fromkeys(paths, b""), set(), force)
     require_writable(real_path(bundle.folder).parent)
@@ -148,13 +124,7 @@ def _put(new: Bundle, old: Bundle | None, contents: Mapping[str, str | bytes], g
 
 
 def _writable_folder(folder: str | Path) -> Path:
-    """Return the real path of a folder.
-
-    Raises
-    ------
-    JumpcadError
-        If it is or contains the working directory, which would be removed.
-    """
+    """Return the real path of a folder."""
     target = real_path(folder)
     with suppress(OSError):  # the working directory no longer exists
         here = Path.cwd().resolve()
@@ -166,13 +136,7 @@ def _writable_folder(folder: str | Path) -> Path:
 
 
 def _bundle_in(target: Path) -> Bundle | None:
-    """Return the bundle in a folder, or None if the folder is missing or empty.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything else.
-    """
+    """Return the bundle in a folder, or None if the folder is missing or empty."""
     if not os.path.lexists(target):
         return None
     if not target.is_dir():
@@ -190,14 +154,7 @@ def _bundle_in(target: Path) -> Bundle | None:
 
 
 def _replaceable(old: Bundle, files: Mapping[str, bytes], gone: set[str], force: bool) -> dict[str, Stamp]:
-    """Return the files in a bundle's folder that are removed when `files` replace those of `gone`.
-
-    Raises
-    ------
-    JumpcadError
-        If a user's file is in the way: an edited or added one under a path of the bundle, unless `force`; anything
-        that is no plain file in any case.
-    """
+    """Return the files in a bundle's folder that are removed when `files` replace those of `gone`."""
     for folder in sorted({folder for path in files for folder in above(path)}):
         if os.path.lexists(place := old.folder / folder) and (place.is_symlink() or not place.is_dir()):
             raise JumpcadError(f"{old.folder}: {folder}: must be a folder; move it away")
@@ -219,14 +176,7 @@ def _replaceable(old: Bundle, files: Mapping[str, bytes], gone: set[str], force:
 
 
 def _replace(target: Path, files: Mapping[str, bytes], gone: Mapping[str, Stamp]) -> None:
-    """Write files into a folder in place of `gone` ones; whatever else it holds stays.
-
-    Raises
-    ------
-    OSError, JumpcadError
-        If the folder cannot be written, or something cannot be kept: nothing is changed then. `JumpcadError` also if a
-        file was changed during the exchange: the message says where it is.
-    """
+    """Write files into a folder in place of `gone` ones; whatever else it holds stays."""
     target.parent.mkdir(parents=True, exist_ok=True)
     temporary = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name[:32]}."))
     fresh = temporary / "new"

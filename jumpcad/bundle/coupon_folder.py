@@ -10,16 +10,7 @@ from jumpcad.workshop import Workshop
 
 
 def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
-    """Write the coupon of a workshop.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder holds anything but a coupon, or one whose readings were filled in (unless `force`), or cannot be
-        written.
-    CannotBuildError
-        If a piece does not fit the bed, or its file is not one closed solid.
-    """
+    """Write the coupon of a workshop."""
     require_place(folder)
     made = coupon_pieces(workshop)
     files = ((WORKSHOP, workshop.to_toml()), *coupon_files(workshop, made))

@@ -22,13 +22,7 @@ def robot_of(subject: Design | str | Path, workshop: Workshop | None = None, nam
 
 
 def inputs_of(subject: Design | str | Path, workshop: Workshop | None = None) -> tuple[Design, Workshop, str]:
-    """Return design, workshop and name of a design, a template, a design file or a bundle, as the command line does.
-
-    Raises
-    ------
-    JumpcadError
-        If it cannot be read, or a workshop is given for a bundle.
-    """
+    """Return design, workshop and name of a design, a template, a design file or a bundle, as the command line does."""
     if isinstance(subject, Design):
         return subject, workshop or load_workshop(subject.workshop_name), "robot"
     if os.path.isdir(subject) and str(subject) not in template_names("robots"):
@@ -46,24 +40,12 @@ def kept_robot(bundle: Bundle) -> Robot:
 
 
 def kept_design(bundle: Bundle) -> Design:
-    """Return the design of a bundle.
-
-    Raises
-    ------
-    JumpcadError
-        If its file is missing, is a link, or is not a design.
-    """
+    """Return the design of a bundle."""
     return load_design(bundle.file(DESIGN))
 
 
 def kept_workshop(bundle: Bundle) -> Workshop:
-    """Return the workshop of a bundle.
-
-    Raises
-    ------
-    JumpcadError
-        If its file is missing, is a link, is not a workshop, or names another file.
-    """
+    """Return the workshop of a bundle."""
     path = bundle.file(WORKSHOP)
     data, _ = read_toml(path)
     for key in ("base", "printer"):

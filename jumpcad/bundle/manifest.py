@@ -135,13 +135,7 @@ class Bundle:
 
 
 def open_bundle(folder: str | Path) -> Bundle:
-    """Return the bundle in a folder.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none, its manifest cannot be read, or it has another format.
-    """
+    """Return the bundle in a folder."""
     path = Path(folder) / MANIFEST
     if wrong := trouble(Path(folder), MANIFEST):
         raise JumpcadError(f"{path}: {wrong}; a bundle has one: jumpcad build makes it")
@@ -157,13 +151,7 @@ def open_bundle(folder: str | Path) -> Bundle:
 
 
 def verify(folder: str | Path) -> list[str]:
-    """Return what is wrong with a bundle's files, one line each: `stl/foot.stl: missing`, `bom.csv: changed`.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder is not a bundle.
-    """
+    """Return what is wrong with a bundle's files, one line each: `stl/foot.stl: missing`, `bom.csv: changed`."""
     bundle = open_bundle(folder)
     wrong = []
     for path in bundle.files:
@@ -177,13 +165,7 @@ def verify(folder: str | Path) -> list[str]:
 
 
 def unlisted(folder: str | Path) -> list[str]:
-    """Return the paths in a bundle's folder that its manifest does not list: files that a user added.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder is not a bundle, or cannot be read.
-    """
+    """Return the paths in a bundle's folder that its manifest does not list: files that a user added."""
     bundle = open_bundle(folder)
 
     def refuse(error: OSError) -> NoReturn:

@@ -93,11 +93,6 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer |
     """Return the PNG files of a robot at rest, loaded and exploded, by their names in `RENDERS`.
 
     `scene` has the meshes of its visible parts, if it is there already.
-
-    Raises
-    ------
-    JumpcadError
-        If the robot has no visible parts.
     """
     things = visuals(robot)
     scene = scene or _renderer(things)
@@ -110,26 +105,14 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer |
 
 
 def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
-    """Return the PNG file of a robot at rest.
-
-    Raises
-    ------
-    JumpcadError
-        As `renders`.
-    """
+    """Return the PNG file of a robot at rest."""
     things = visuals(robot)
     poses = _poses(things, body_poses(robot))
     return png_of(_renderer(things).picture(poses, size, View(), corners_of(things, poses)))
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
-    """Return the PNG files of a robot and of every step of its assembly, by name.
-
-    Raises
-    ------
-    JumpcadError
-        As `renders`.
-    """
+    """Return the PNG files of a robot and of every step of its assembly, by name."""
     things = visuals(robot)
     scene = _renderer(things)
     return renders(robot, scene=scene) | step_pictures(robot, things, scene)

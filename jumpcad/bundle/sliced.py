@@ -103,14 +103,6 @@ def slice_bundle(
         With the print settings; by default the bundle's own.
     tell
         Called with the name of each part and plate before it is sliced.
-
-    Raises
-    ------
-    JumpcadError
-        If a file of the bundle is changed or missing, if it has no printed parts, if the workshop lacks one of its
-        materials, or if PrusaSlicer is missing, crashes, or is of another major version.
-    CannotBuildError
-        If PrusaSlicer rejects a part or finds nothing to print.
     """
     if wrong := verify(folder):
         raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; build it again with jumpcad build")
@@ -143,13 +135,7 @@ def slice_bundle(
 
 
 def write_times(found: SlicedBundle) -> Bundle:
-    """Write the printing times into a bundle's bill of materials and order.md, and return the changed bundle.
-
-    Raises
-    ------
-    JumpcadError
-        If order.md is not text, a user's file would be lost, or the folder cannot be written.
-    """
+    """Write the printing times into a bundle's bill of materials and order.md, and return the changed bundle."""
     bundle = found.bundle
     bill = bill_of_facts(bundle.manifest["masses"], found.workshop, bundle.manifest.get("used_up", ())).sliced(
         {part.name: part.time_s for part in found.parts},
@@ -192,13 +178,7 @@ def _modelled_grams(stl: Path, workshop: Workshop, material: Material) -> float:
 
 
 class _StlPart:
-    """An STL file with the interface of the mass model's shapes (mm).
-
-    Raises
-    ------
-    JumpcadError
-        If it is no closed solid, or has coordinates beyond `LARGEST_MM`.
-    """
+    """An STL file with the interface of the mass model's shapes (mm)."""
 
     def __init__(self, stl: Path) -> None:
         with np.errstate(all="ignore"):  # from coordinates that are rejected below

@@ -165,12 +165,6 @@ def _unsaid(series: Jumps) -> Iterator[Contradiction]:
 
 @check_arguments
 def load_measurements(name_or_path: str | Path) -> tuple[Measurements, Path]:
-    """Return the measurements of a template (`kenan-1.0`, `kenan-2.0`) or of a TOML file, and where they are.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such file, a key is unknown or out of range, or it is not said how something was measured.
-    """
+    """Return the measurements of a template (`kenan-1.0`, `kenan-2.0`) or of a TOML file, and where they are."""
     path = find_template("measurements", name_or_path)
     return Measurements.from_toml(path), path

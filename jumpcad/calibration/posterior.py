@@ -116,14 +116,6 @@ def calibrate(files: Sequence[str | Path], seed: int = 0, landing: bool = False)
         Random seed of the sampler.
     landing
         Whether the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
-
-    Raises
-    ------
-    JumpcadError
-        If a file is named twice, a measurement contradicts another or the robot, robots that share springs have them of
-        two rates, a unit or method is not clear, there is too little to calibrate on, or emcee is not installed.
-    CannotBuildError
-        If a design cannot be built.
     """
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")
@@ -145,11 +137,6 @@ def sampled(
     """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
 
     `walkers_each` is the number of walkers per parameter; `steps` is the first length of the chains.
-
-    Raises
-    ------
-    JumpcadError
-        If a robot has no measured jump, if no draw from the priors explains the jumps, or if emcee is not installed.
     """
     for subject in model.subjects:
         if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):

@@ -25,11 +25,6 @@ def settings_toml(posterior: CalibrationPosterior) -> str:
     """Return the settings file of a calibration.
 
     Floor, masses and rate of the springs are not settings: they belong to workshop and design, see `elsewhere`.
-
-    Raises
-    ------
-    JumpcadError
-        If a measurement is off by more than `MOST_DEVIATIONS`.
     """
     for one in posterior.residuals():
         if abs(off := one["off_by_deviations"]) > MOST_DEVIATIONS:

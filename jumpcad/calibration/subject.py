@@ -146,15 +146,7 @@ class Subject:
 
 
 def load_subject(name_or_path: str | Path) -> Subject:
-    """Return the robot of a measurement file, built, with its measurements checked.
-
-    Raises
-    ------
-    JumpcadError
-        If a file is missing, the measurements contradict each other, or a unit is off.
-    CannotBuildError
-        If the design cannot be built.
-    """
+    """Return the robot of a measurement file, built, with its measurements checked."""
     measured, path = load_measurements(name_or_path)
     design = load_design(_beside(path, measured.design))
     workshop = load_workshop(_beside(path, measured.workshop))
@@ -173,13 +165,7 @@ def load_subject(name_or_path: str | Path) -> Subject:
 
 
 def require_each_once(names: Sequence[str | Path]) -> None:
-    """Require that no measurements are named twice, nor under two names: their jumps would count as other jumps.
-
-    Raises
-    ------
-    JumpcadError
-        If some are, or a file cannot be read.
-    """
+    """Require that no measurements are named twice, nor under two names: their jumps would count as other jumps."""
     known: list[tuple[str | Path, Path, Measurements, list[Path]]] = []
     for name in names:
         measured, path = load_measurements(name)
@@ -274,13 +260,7 @@ def _require_energy(subject: Subject, source: str) -> None:
 
 
 def require_pairs(subjects: Sequence[Subject]) -> None:
-    """Require that robots with the same pair of springs have springs of one rate, by design and as measured.
-
-    Raises
-    ------
-    JumpcadError
-        If they have not: the rate that is calibrated is the pair's.
-    """
+    """Require that robots with the same pair of springs have springs of one rate, by design and as measured."""
     for one, other in combinations(subjects, 2):
         if one.pair != other.pair:
             continue

@@ -107,13 +107,7 @@ class Surface:
 
 
 def surface_of(mechanism: Mechanism, nodes: Nodes = NODES) -> Surface:
-    """Return the surface of a printed robot from its jumps at every combination of nodes.
-
-    Raises
-    ------
-    JumpcadError
-        If the robot jumps at no node.
-    """
+    """Return the surface of a printed robot from its jumps at every combination of nodes."""
     grid = np.full((len(FIGURES), *map(len, nodes)), np.nan)
     for i, energy in enumerate(nodes[0]):
         for j, pins in enumerate(nodes[1]):

@@ -48,14 +48,7 @@ Column = tuple[int, float]
 
 
 def read_points(path: Path) -> Array:
-    """Return the points (n, 3) of a text file, t (s), x and z (m), in order of time.
-
-    Raises
-    ------
-    JumpcadError
-        If the file cannot be read, no line names the columns, two columns have one name, a unit is unknown, a value is
-        no finite number (with file and line), there are too few points, or t does not increase.
-    """
+    """Return the points (n, 3) of a text file, t (s), x and z (m), in order of time."""
     content = read_bytes(path, "a CSV file")
     encodings = ("utf-16",) if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else ("utf-8-sig", "cp1252")
     for encoding in encodings:

@@ -36,12 +36,6 @@ def seen_takeoff(points: Array, source: str, fastest_m_s: float, slow_motion: fl
 
     Gravity alone cannot tell lengths in cm with a clock 10 times too slow from a flight that is right: the speed does,
     by `fastest_m_s`, that with all of the springs' energy. `slow_motion` divides t.
-
-    Raises
-    ------
-    JumpcadError
-        If the gravity is not the earth's or the speed not the robot's (wrong scale, wrong clock, or points on the
-        ground), or if x does not point forwards or z upwards.
     """
     t, x, z = (points - points[0]).T
     t = t / slow_motion

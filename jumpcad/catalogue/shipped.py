@@ -140,23 +140,11 @@ class Catalogue:
         return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
 
     def clip_for(self, shaft_mm: float) -> Clip:
-        """Return the clip for a shaft.
-
-        Raises
-        ------
-        JumpcadError
-            If there is none.
-        """
+        """Return the clip for a shaft."""
         return _of_size("clip", {clip.shaft_mm: clip for clip in self.clips.values()}, shaft_mm)
 
     def clevis_pin_for(self, diameter_mm: float) -> ClevisPin:
-        """Return the clevis pin of a diameter.
-
-        Raises
-        ------
-        JumpcadError
-            If there is none.
-        """
+        """Return the clevis pin of a diameter."""
         return _of_size("clevis pin", {p.diameter_mm: p for p in self.clevis_pins.values()}, diameter_mm)
 
 

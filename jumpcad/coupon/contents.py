@@ -126,13 +126,7 @@ def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
 
 
 def coupon_files(workshop: Workshop, made: Sequence[Piece], pictures: bool = True) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of every file of the coupon.
-
-    Raises
-    ------
-    CannotBuildError
-        If a piece does not fit the bed, or its file is not one closed solid.
-    """
+    """Yield path and content of every file of the coupon."""
     holes = coupon_holes(workshop)
     for piece in made:
         stl = write_stl(piece.mesh)

@@ -137,12 +137,6 @@ def measured_workshop(readings: Readings, workshop: Workshop, source: str = "rea
         The base.
     source
         Where the readings come from, for errors.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no reading, one is outside of the coupon's offsets or contradicts another, or the fits contradict
-        each other.
     """
     if wrong := list(_complaints(readings, workshop)):
         raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))

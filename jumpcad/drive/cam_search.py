@@ -36,11 +36,6 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
     """Find the smallest cam for a law: outer radius first, then lever and distance of the axis.
 
     It is often that of the round of growth before, in which only the springs' pin moves.
-
-    Raises
-    ------
-    CannotBuildError
-        If no shape meets every limit.
     """
     search = _Shapes(law, limits)
     for _ in range(4):

@@ -31,11 +31,6 @@ def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: Sp
         Both springs together.
     leg_pin_rad
         Direction of the leg's pin in the rest pose.
-
-    Raises
-    ------
-    CannotBuildError
-        If no wire is strong enough in the available room.
     """
     for length in limits.body_lengths_max_mm:
         smallest = [

@@ -54,14 +54,7 @@ def rate_finding(design: Design, stock: StockSpring) -> Finding:
 def fitted_spring(
     stock: StockSpring, on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits
 ) -> TorsionSpring:
-    """Return a stock spring with arms of such a length that they touch the pins at rest.
-
-    Raises
-    ------
-    CannotBuildError
-        If the arms reach no pin in any direction that is tried, or if the loaded coil binds on its bushing; the message
-        says by how much.
-    """
+    """Return a stock spring with arms of such a length that they touch the pins at rest."""
     d, mean, turns = stock.wire_mm, stock.inside_diameter_mm + stock.wire_mm, stock.wound_turns
     beside = beside_mm(mean, d, limits.pin_mm)
     found: list[tuple[Arms, float]] = []

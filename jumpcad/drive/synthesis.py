@@ -91,13 +91,7 @@ class Drive:
 
 
 def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None = None) -> Drive:
-    """Find springs, cam, gears and motor for a design, each as small as its limits allow.
-
-    Raises
-    ------
-    CannotBuildError
-        If one of them is not possible; the message names the limit and what to change.
-    """
+    """Find springs, cam, gears and motor for a design, each as small as its limits allow."""
     catalogue = catalogue or load_catalogue()
     compression = design.compression_rad
     if compression < LEAST_COMPRESSION_RAD:

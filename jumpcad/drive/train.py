@@ -95,13 +95,7 @@ class GearTrain:
 
 
 def synthesise_train(law: CamLaw, motors: Sequence[Motor], limits: TrainLimits) -> GearTrain:
-    """Choose motor and gears for a cam.
-
-    Raises
-    ------
-    NoTrainError
-        If no motor turns the cam with one or two pairs that fit.
-    """
+    """Choose motor and gears for a cam."""
     if not motors:
         raise CannotBuildError("no motor is allowed: name at least one of the catalogue's motors")
     for count in (1, 2):

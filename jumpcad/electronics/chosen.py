@@ -41,13 +41,7 @@ class Chosen:
 
 
 def chosen_parts(workshop: Workshop) -> Chosen:
-    """Return the electrical parts of a workshop.
-
-    Raises
-    ------
-    JumpcadError
-        If the catalogue does not have one of them.
-    """
+    """Return the electrical parts of a workshop."""
     return chosen_of(workshop.catalogue, workshop.bought)
 
 

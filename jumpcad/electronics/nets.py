@@ -109,13 +109,7 @@ def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
 
 
 def gpio(board: Board, pin: str) -> int:
-    """Return the number of a controller's pin.
-
-    Raises
-    ------
-    CannotBuildError
-        If it has none.
-    """
+    """Return the number of a controller's pin."""
     for function in board.pins.get(pin, ()):
         if found := GPIO.fullmatch(function):
             return int(found[1])

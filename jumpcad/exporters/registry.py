@@ -47,13 +47,7 @@ EXPORTERS = (
 
 
 def chosen(optional: Iterable[str] = ()) -> list[Exporter]:
-    """Return the exporters of a bundle: all that are not optional, and the optional ones that are named.
-
-    Raises
-    ------
-    JumpcadError
-        If what an optional one needs is not installed.
-    """
+    """Return the exporters of a bundle: all that are not optional, and the optional ones that are named."""
     named = set(optional)
     exporters = [exporter for exporter in EXPORTERS if not exporter.optional or exporter.name in named]
     for exporter in exporters:

@@ -35,13 +35,7 @@ def is_installed() -> bool:
 
 
 def require_step() -> None:
-    """Require the library that writes STEP.
-
-    Raises
-    ------
-    JumpcadError
-        If it is not installed.
-    """
+    """Require the library that writes STEP."""
     if not is_installed():
         raise JumpcadError('STEP needs build123d, which is not installed: pip install "jumpcad[step]"')
 
@@ -53,13 +47,7 @@ def step_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
 
 
 def write_step(drawing: Drawing) -> bytes:
-    """Return the STEP file of a part in printing orientation; the same part gives the same bytes.
-
-    Raises
-    ------
-    CannotBuildError
-        If its faces do not make one valid solid, as drawn and read from the file.
-    """
+    """Return the STEP file of a part in printing orientation; the same part gives the same bytes."""
     from build123d import export_step
 
     tries = _stacked(drawing.shape) if isinstance(drawing.shape, Stack) else _faceted(drawing)

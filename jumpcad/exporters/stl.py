@@ -10,13 +10,7 @@ from jumpcad.solids.stl import write_stl
 
 
 def stl_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
-    """Yield path and content of every part's file.
-
-    Raises
-    ------
-    CannotBuildError
-        If a part's file is not one closed solid.
-    """
+    """Yield path and content of every part's file."""
     parts: list[Printable] = [*robot.parts, *printed_pads(robot.hardware, robot.workshop)]
     for part in parts:
         stl = write_stl(part.mesh)

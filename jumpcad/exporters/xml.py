@@ -42,13 +42,7 @@ def shortened(value: Value) -> str:
 
 
 def allowed(text: str) -> str:
-    """Return a text that XML may hold; XML has no way to write most control characters, not even escaped.
-
-    Raises
-    ------
-    JumpcadError
-        If it holds another character.
-    """
+    """Return a text that XML may hold; XML has no way to write most control characters, not even escaped."""
     if found := FORBIDDEN.search(text):
         around = text[max(found.start() - 20, 0) : found.end() + 20]
         raise JumpcadError(f"{around!r}: XML cannot hold the character U+{ord(found[0]):04X}: leave it out")

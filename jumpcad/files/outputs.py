@@ -42,11 +42,6 @@ def write_files(folder: Path, files: Mapping[str, str | bytes], force: bool = Fa
 
     They get temporary names in the folder first. A new one is then put in its place by a hard link, which replaces
     nothing that a user made meanwhile. Text is written in UTF-8.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder or a file cannot be written, or a file of the user's is there now (unless `force`).
     """
     require_path(folder)
     made, at = [one for one in (folder, *folder.parents) if not os.path.lexists(one)], folder
@@ -108,13 +103,7 @@ def _unlink(*files: Path) -> None:
 
 
 def require_path(path: Path) -> None:
-    """Require that a path is possible.
-
-    Raises
-    ------
-    JumpcadError
-        If it has a NUL, a character or a name that a file cannot have, also on Windows, or too many folders.
-    """
+    """Require that a path is possible."""
     if "\0" in str(path):
         raise JumpcadError(f"{path}: cannot be a path: it has a NUL")
     if len(path.parts) > DEEPEST:
@@ -130,13 +119,7 @@ def require_path(path: Path) -> None:
 
 
 def real_path(path: str | Path) -> Path:
-    """Return the absolute path with all links followed; it need not exist.
-
-    Raises
-    ------
-    JumpcadError
-        If the path is impossible: a loop of links, or a name that no file can have.
-    """
+    """Return the absolute path with all links followed; it need not exist."""
     require_path(Path(path))
     try:
         real = Path(path).resolve()
@@ -154,11 +137,6 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
     ----------
     outputs, inputs
         Paths by their options; None if not given. Inputs that are templates or bundles do not count.
-
-    Raises
-    ------
-    JumpcadError
-        If two are the same, or one is below another; it names both options.
     """
     there = {name: path for name, path in outputs.items() if path is not None}
     files = {name: path for name, path in inputs.items() if path is not None and not os.path.isdir(path)}
@@ -174,14 +152,7 @@ def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str |
 
 
 def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -> None:
-    """Require that an output file can be written.
-
-    Raises
-    ------
-    JumpcadError
-        If it has another suffix, its folder is missing or cannot be written, or it would replace a user's file (unless
-        `force`).
-    """
+    """Require that an output file can be written."""
     require_path(path)
     if path.suffix not in suffixes:
         raise JumpcadError(f"{path}: must end in {' or '.join(suffixes)}")
@@ -191,13 +162,7 @@ def require_target(path: Path, suffixes: tuple[str, ...], force: bool = False) -
 
 
 def require_folder(path: Path) -> None:
-    """Require that the folder of an output file exists.
-
-    Raises
-    ------
-    JumpcadError
-        If it does not.
-    """
+    """Require that the folder of an output file exists."""
     if not os.path.isdir(path.parent):
         raise JumpcadError(f"{path}: cannot be written: there is no folder {path.parent}")
 
@@ -207,11 +172,6 @@ def require_writable(folder: Path) -> None:
 
     It makes an empty file and removes it: what the system says of rights is not the whole truth on disks that are
     mounted to be read only, or shared. Called before long work, so that its result is not lost.
-
-    Raises
-    ------
-    JumpcadError
-        If no file can be made.
     """
     require_path(folder)
     there = folder
@@ -228,13 +188,7 @@ def require_writable(folder: Path) -> None:
 
 
 def require_free(path: Path, force: bool = False) -> None:
-    """Require that a path is free, or a file that may be replaced.
-
-    Raises
-    ------
-    JumpcadError
-        If it is a file without jumpcad's seal (unless `force`), or no plain file, or cannot be read.
-    """
+    """Require that a path is free, or a file that may be replaced."""
     require_path(path)
     try:
         mode = os.lstat(path).st_mode

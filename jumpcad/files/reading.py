@@ -24,13 +24,7 @@ DECIMAL = re.compile(r"(?<=[\[,\s])[-+]?\d+\.\d+(?=\s*[],])")
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
-    """Return the parsed TOML file and its text.
-
-    Raises
-    ------
-    JumpcadError
-        If it is no regular file, cannot be read, is too large, is no TOML, or is nested too deep.
-    """
+    """Return the parsed TOML file and its text."""
     text = read_text(path, "a TOML file")
     for number, line in enumerate(text.split("\n"), start=1):
         # Parsing time grows with the square of the number of a key's parts; no useful line has so many dots.
@@ -50,14 +44,7 @@ def read_toml(path: Path) -> tuple[dict[str, Any], str]:
 
 
 def read_json(path: Path) -> Any:
-    """Return the content of a JSON file.
-
-    Raises
-    ------
-    JumpcadError
-        If it is no regular file, cannot be read, is too large, is no JSON (NaN and infinity are not), or is nested too
-        deep.
-    """
+    """Return the content of a JSON file."""
     try:
         data = json.loads(read_text(path, "a JSON file"), parse_constant=_no_constant)
     except ValueError as error:
@@ -70,13 +57,7 @@ def read_json(path: Path) -> Any:
 
 
 def read_text(path: Path, kind: str = "a text file") -> str:
-    """Return the text of a file in UTF-8, with line feeds as line breaks; for `kind` see `read_bytes`.
-
-    Raises
-    ------
-    JumpcadError
-        As `read_bytes`, or if it is not text in UTF-8.
-    """
+    """Return the text of a file in UTF-8, with line feeds as line breaks; for `kind` see `read_bytes`."""
     try:
         return read_bytes(path, kind).decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:
@@ -84,13 +65,7 @@ def read_text(path: Path, kind: str = "a text file") -> str:
 
 
 def read_bytes(path: Path, kind: str = "a file", most: int = LARGEST_BYTES) -> bytes:
-    """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`.
-
-    Raises
-    ------
-    JumpcadError
-        If it is no regular file, is too large, or cannot be read.
-    """
+    """Return the content of a regular file of moderate size; `kind` says what it should be, such as `a TOML file`."""
     try:
         there = os.stat(path)  # before it is opened, since some devices act then
         mode = there.st_mode

@@ -49,36 +49,18 @@ class Record(TomlTable):
         return ()
 
     def revalidated(self) -> Self:
-        """Return the same record, validated again: pydantic does not validate changed copies and dictionaries.
-
-        Raises
-        ------
-        JumpcadError
-            If a value is out of range, of the wrong type, or contradicts another.
-        """
+        """Return the same record, validated again: pydantic does not validate changed copies and dictionaries."""
         return type(self)(**self.model_dump(warnings=False))
 
     @classmethod
     def from_toml(cls, path: Path) -> Self:
-        """Read a record from a TOML file.
-
-        Raises
-        ------
-        JumpcadError
-            If the file cannot be read, or with every wrong key and its line.
-        """
+        """Read a record from a TOML file."""
         data, text = read_toml(path)
         return cls.from_data(data, source=str(path), text=text)
 
     @classmethod
     def from_data(cls, data: dict[str, Any], source: str, text: str = "", origins: Sequence[Origin] = ()) -> Self:
-        """Validate data parsed from the file `source`; see `complaints` for `text` and `origins`.
-
-        Raises
-        ------
-        JumpcadError
-            With every wrong key and its line.
-        """
+        """Validate data parsed from the file `source`; see `complaints` for `text` and `origins`."""
         try:
             return cls(**data)
         except JumpcadError as error:

@@ -44,13 +44,7 @@ def environment() -> Environment:
 
 
 def render(template: str, values: Mapping[str, Any]) -> str:
-    """Return a template of `templates/` with values in it, lists numbered, without runs of empty lines.
-
-    Raises
-    ------
-    jinja2.UndefinedError
-        If it names a value that is not given.
-    """
+    """Return a template of `templates/` with values in it, lists numbered, without runs of empty lines."""
     text = environment().get_template(template).render(values)
     return _numbered(re.sub(r"\n{3,}", "\n\n", text).strip()) + "\n"
 

@@ -26,11 +26,6 @@ def find_template(kind: str, name_or_path: str | Path) -> Path:
     """Return the TOML file of a template's name, or a path; a path to a TOML file need not exist.
 
     A template's name without suffix or folder is always the template, also if the working directory has such a file.
-
-    Raises
-    ------
-    JumpcadError
-        If it is neither.
     """
     text = str(name_or_path)
     if text.endswith(".toml") or os.path.dirname(text):

@@ -68,11 +68,6 @@ class Arena:
         Of which gravity and friction hold; None: the defaults.
     half_step_m
         Half of length, width and height of a step, which `put_step` puts on the floor; None: there is none.
-
-    Raises
-    ------
-    JumpcadError
-        If MuJoCo is not installed.
     """
 
     def __init__(

@@ -136,15 +136,7 @@ def rest_distance_m(robot: Robot, settings: Settings | None = None) -> float:
 def distances_m(
     robot: Robot, tries: int, rng: np.random.Generator, settings: Settings | None = None
 ) -> list[tuple[float, float]]:
-    """Return how far away the robot touches down and comes to rest, in as many of its own jumps (m).
-
-    Raises
-    ------
-    CannotBuildError
-        If the robot does not leave the floor.
-    JumpcadError
-        If MuJoCo is not installed.
-    """
+    """Return how far away the robot touches down and comes to rest, in as many of its own jumps (m)."""
     arena = Arena(robot, settings)
     return [_fly_and_rest(arena, rng) for _ in range(tries)]
 

@@ -37,13 +37,6 @@ def lightest_cage(design: Design, workshop: Workshop, tries: int = TRIES) -> tup
 
     Two hoops with or without a bow: a pattern search from the sizes that the layout finds. Landings and drops have the
     last word, in the order of mass. The robot's workshop gives all sizes.
-
-    Raises
-    ------
-    CannotBuildError
-        If no cage that was tried rights it.
-    JumpcadError
-        If MuJoCo is not installed.
     """
     found: list[tuple[Cost, Workshop]] = []
     for bow in (False, True):

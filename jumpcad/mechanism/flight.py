@@ -49,11 +49,6 @@ def leg_blow(bodies: Mapping[str, Body], linkage: Linkage, spring: Spring, stop_
 
     In flight ½·I·q̇² + ½·H²/J + V is constant, with the angular momentum H and the inertia J of all about their centre,
     and the springs' energy V. Springs that do not raise the robot bring no leg to its stop: the impact is 0.
-
-    Raises
-    ------
-    CannotBuildError
-        If the loop does not close up to the stop.
     """
     chain = _Chain(bodies, linkage, spring, stop_rad)
     state = _push_off(chain, bodies[FOOT].contacts)

@@ -43,11 +43,6 @@ class Linkage:
     ----------
     design
         Its eight parameters.
-
-    Raises
-    ------
-    CannotBuildError
-        If the design has no assembled pose.
     """
 
     def __init__(self, design: Design) -> None:
@@ -89,13 +84,7 @@ class Linkage:
         return float(min(shortest - abs(self.l3 - self.l4), self.l3 + self.l4 - longest))
 
     def pose(self, leg_rad: npt.ArrayLike, other_branch: bool = False) -> Pose:
-        """Solve the loop at leg angles (n,), on the branch continuous with the assembled pose, or on the other one.
-
-        Raises
-        ------
-        CannotBuildError
-            If the loop does not close at one of the angles.
-        """
+        """Solve the loop at leg angles (n,), on the branch continuous with the assembled pose, or on the other one."""
         leg = np.atleast_1d(np.asarray(leg_rad, dtype=float))
         return _solved(self.design, leg.tobytes(), leg.shape, other_branch)
 
@@ -108,13 +97,7 @@ class Linkage:
         return Pose(leg, front, angle - leg - self.beta_rad, angle, ankle_mm, ankle_mm + _points(foot))
 
     def height_of_body_mm(self, leg_rad: npt.ArrayLike) -> Array:
-        """Return the heights (n, 2) of back and front pivot above the line through ankle and front eye.
-
-        Raises
-        ------
-        CannotBuildError
-            If the loop does not close at one of the angles.
-        """
+        """Return the heights (n, 2) of back and front pivot above the line through ankle and front eye."""
         ankle, foot = self._ankle(leg_rad), self._foot(leg_rad)
         return np.stack([(pivot - ankle) * foot.conjugate() for pivot in (0.0, self.l1)], axis=-1).imag / self.l4
 

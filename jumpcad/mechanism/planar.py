@@ -13,13 +13,7 @@ from jumpcad.transforms import Array
 
 
 def frames(linkage: Linkage, leg_rad: Array) -> dict[str, tuple[Complex, Array]]:
-    """Return origin (m) and angle of every body's frame in the frame of `body`, (n,) each, at leg angles (n,).
-
-    Raises
-    ------
-    CannotBuildError
-        If the loop does not close at one of the angles.
-    """
+    """Return origin (m) and angle of every body's frame in the frame of `body`, (n,) each, at leg angles (n,)."""
     pose = linkage.pose(leg_rad)
     ankle = points(pose.ankle_mm) / 1000.0
     still = np.zeros_like(ankle)

@@ -31,11 +31,6 @@ def release_pose(mechanism: Multibody) -> ReleasePose:
     """Return pose and rates where the jump begins: where the roller has left the cam, or at rest with loaded springs.
 
     That of a five-bar is in closed form, that of others found, see `Multibody.loaded`.
-
-    Raises
-    ------
-    CannotBuildError
-        If the loop does not close there.
     """
     if not isinstance(mechanism, Mechanism):
         height_m, pitch_rad, *angles = mechanism.loaded.tolist()

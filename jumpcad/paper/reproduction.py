@@ -100,13 +100,7 @@ class Reproduction:
 
 
 def reproduce() -> list[Reproduction]:
-    """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown.
-
-    Raises
-    ------
-    JumpcadError
-        If PyBullet is missing.
-    """
+    """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown."""
     settings = Settings(flight="simulated")
     rows = []
     for result in PUBLISHED_RESULTS:

@@ -59,13 +59,7 @@ def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[
 def require_bed(
     name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float], caged: bool = False
 ) -> BedFit:
-    """Return how a part lies on the bed; `caged` says whether body plates have horns for a cage.
-
-    Raises
-    ------
-    CannotBuildError
-        If it fits at no angle.
-    """
+    """Return how a part lies on the bed; `caged` says whether body plates have horns for a cage."""
     found = fit_to_bed(bounds_mm, outline, bed_mm)
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))

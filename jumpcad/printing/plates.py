@@ -94,11 +94,6 @@ def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: floa
         Usable bed (x, y, z).
     spacing_mm
         Distance that parts keep from each other.
-
-    Raises
-    ------
-    CannotBuildError
-        If a part fits the bed in no position.
     """
     by_material: dict[str, list[Printable]] = {}
     for part in sorted(parts, key=lambda part: part.name):

@@ -80,13 +80,7 @@ def slicer_settings(printer: Printer, process: Process, material: Material | Pad
 
 
 def slicer_version() -> str:
-    """Return the version of the installed PrusaSlicer, such as `2.5.0`.
-
-    Raises
-    ------
-    JumpcadError
-        If it is missing, does not answer, or is of another major version than `MAJOR`.
-    """
+    """Return the version of the installed PrusaSlicer, such as `2.5.0`."""
     done = _run(["--help"], "its help")
     found = re.search(r"PrusaSlicer-((\d+)[\w.-]*)", done.stdout + done.stderr)
     if found is None:
@@ -97,15 +91,7 @@ def slicer_version() -> str:
 
 
 def slice_part(stl: Path, printer: Printer, process: Process, material: Material) -> Sliced:
-    """Slice one STL file with PrusaSlicer, in the middle of the bed.
-
-    Raises
-    ------
-    JumpcadError
-        If PrusaSlicer is missing, crashes, or writes something that is not its G-code.
-    CannotBuildError
-        If PrusaSlicer refuses the part; its last line of output is quoted.
-    """
+    """Slice one STL file with PrusaSlicer, in the middle of the bed."""
     centre = f"{printer.bed_mm[0] / 2.0:g},{printer.bed_mm[1] / 2.0:g}"
     return _sliced(stl, ["--center", centre], slicer_settings(printer, process, material), material)
 

@@ -159,11 +159,6 @@ def make_layout(
 
     `plate_mm` is the plates' thickness as grown, `leg_pin_hole_mm` the diameter of the left plate's hole through which
     the pin goes into the leg. Without `sensor` no switch says when the robot is wound.
-
-    Raises
-    ------
-    CannotBuildError
-        If something finds no room; the message names it, what is in its way, and the number to change.
     """
     lateral = lateral_stack(
         sections.thickness_mm,

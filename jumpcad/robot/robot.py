@@ -97,13 +97,7 @@ def decided_once(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:
 
 
 def require_name(name: str) -> None:
-    """Reject a robot's name that cannot be part of file names.
-
-    Raises
-    ------
-    JumpcadError
-        Saying what it may hold.
-    """
+    """Reject a robot's name that cannot be part of file names."""
     if not NAME.fullmatch(name):
         wrong = next((f", not U+{ord(letter):04X}" for letter in name if not re.match(r"[\w .+-]", letter)), "")
         raise JumpcadError(

@@ -91,11 +91,6 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     """Vary each free parameter alone, over `points` values of its range (or over its choices).
 
     The others have the values of `around` and of the model's workshop, or those that the space fixes.
-
-    Raises
-    ------
-    JumpcadError
-        If there are fewer than two points.
     """
     if points < 2:
         raise JumpcadError(f"points = {points} must be at least 2")
@@ -109,13 +104,7 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
 
 @check_arguments
 def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
-    """Evaluate `count` designs spread evenly over the space.
-
-    Raises
-    ------
-    JumpcadError
-        If there are fewer than 20.
-    """
+    """Evaluate `count` designs spread evenly over the space."""
     if count < 20:
         raise JumpcadError(f"samples = {count} must be at least 20")
     points = evaluator.space.spread(count, np.random.default_rng([seed, 5]))
@@ -124,13 +113,7 @@ def sample(evaluator: Evaluator, count: int, seed: int) -> list[Trial]:
 
 @check_arguments
 def components(evaluator: Evaluator, trials: Sequence[Trial]) -> Components:
-    """Return the principal components of the free parameters of some trials.
-
-    Raises
-    ------
-    JumpcadError
-        If there are fewer than three trials.
-    """
+    """Return the principal components of the free parameters of some trials."""
     from sklearn.decomposition import PCA
 
     if len(trials) < 3:
@@ -155,11 +138,6 @@ def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
 
     A fifth whose scores are equal says nothing.
-
-    Raises
-    ------
-    JumpcadError
-        If too few designs jump, or all score alike.
     """
     space = searched.space if isinstance(searched, Evaluator) else searched
     feasible = [trial for trial in trials if trial.score is not None]
@@ -195,13 +173,7 @@ def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) 
 
 @check_arguments
 def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: str, points: int) -> FeasibilityMap:
-    """Evaluate a grid over two free parameters; the others are as in a `sweep`.
-
-    Raises
-    ------
-    JumpcadError
-        If one of the two is not free, or both are the same.
-    """
+    """Evaluate a grid over two free parameters; the others are as in a `sweep`."""
     parameters = {parameter.name: parameter for parameter in evaluator.space.free}
     for name in (x_name, y_name):
         if name not in parameters:

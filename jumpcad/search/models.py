@@ -105,13 +105,7 @@ class RobotModel:
         return ()
 
     def requiring(self, asked: Iterable[str] | Required) -> "RobotModel":
-        """Return the model whose evaluations are rejected where a requirement is not kept.
-
-        Raises
-        ------
-        JumpcadError
-            If one is none, or names no figure or limit of this robot.
-        """
+        """Return the model whose evaluations are rejected where a requirement is not kept."""
         found = requirements_of(asked, [*self.figure_names, *self.limit_names])
         if not found:
             return self
@@ -376,11 +370,6 @@ def robot_model(
     settings, engine
         How `printed` and `capsule` are simulated: the default settings, and the first of PyBullet and MuJoCo that is
         installed, if None.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such model, engine, workshop or settings, or the model does not use what is given.
     """
     if engine is not None:
         require_engine(engine)

@@ -110,12 +110,6 @@ class Space:
             The workshop whose values may be varied; None for a robot that is made in none.
         study
             Whether the study's bounds are the usual ones, whatever the workshop.
-
-        Raises
-        ------
-        JumpcadError
-            For an unknown name, a value outside of what a design or workshop can be, an empty range or nothing left
-            free.
         """
         only = [known_name(name) for name in only]
         usual: Mapping[str, Bounds] = PRINTED_BOUNDS
@@ -165,11 +159,6 @@ class Space:
         """Return the usual space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
 
         The bound ``study`` stands for all of the study's.
-
-        Raises
-        ------
-        JumpcadError
-            As `make`, and for a text of another form.
         """
         fixed = {name: value for name, (value,) in read_changes("fix", fix).items()}
         others["study"] = others.get("study", False) or STUDY in (bound := list(bound))

@@ -43,13 +43,7 @@ def is_installed(name: str) -> bool:
 
 @cache
 def engine_named(name: str) -> "Engine":
-    """Return the one engine of a name that this process has.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none of the name, or it is not installed.
-    """
+    """Return the one engine of a name that this process has."""
     require_engine(name)
     module, maker = ENGINES[name]
     engine: Engine = getattr(importlib.import_module(module), maker)()
@@ -57,26 +51,14 @@ def engine_named(name: str) -> "Engine":
 
 
 def require_engine(name: str) -> None:
-    """Reject a name that no engine has.
-
-    Raises
-    ------
-    JumpcadError
-        With a list of the engines.
-    """
+    """Reject a name that no engine has."""
     if name not in ENGINES:
         hint = did_you_mean(name, list(ENGINES))
         raise JumpcadError(f"{name!r} is not an engine; there are pybullet, mujoco and planar{hint}")
 
 
 def default_engine() -> str:
-    """Return the first general engine that is installed.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none.
-    """
+    """Return the first general engine that is installed."""
     for name in GENERAL:
         if is_installed(name):
             return name

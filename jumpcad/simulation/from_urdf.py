@@ -52,14 +52,7 @@ SAME = 1e-6
 
 
 def robot_from_urdf(path: Path) -> Mechanism:
-    """Return the mechanism of a URDF file that `jumpcad build` wrote.
-
-    Raises
-    ------
-    JumpcadError
-        If the file, or `NAME.loop.json` beside it, is missing, broken, lacks something, or holds values that no
-        mechanism can have.
-    """
+    """Return the mechanism of a URDF file that `jumpcad build` wrote."""
     beside = path.with_suffix(".loop.json")
     content, data = read_bytes(path, "a URDF file"), read_json(beside)
     with _named_file(beside):

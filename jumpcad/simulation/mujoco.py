@@ -38,13 +38,7 @@ class MujocoEngine:
 
     @contextmanager
     def world(self, mechanism: Multibody, settings: Settings) -> Iterator["MujocoWorld"]:
-        """Put a robot on the ground, ready for release.
-
-        Raises
-        ------
-        JumpcadError
-            If the settings ask for what MuJoCo, or the robot, does not have.
-        """
+        """Put a robot on the ground, ready for release."""
         if settings.restitution:
             raise JumpcadError(
                 f"restitution = {settings.restitution:g}: MuJoCo has none; set it to 0 or use --engine pybullet"

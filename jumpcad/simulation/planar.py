@@ -64,13 +64,7 @@ class PlanarWorld:
         )
 
     def advance(self, steps: int) -> float:
-        """Advance by a number of time steps; return the leg joint's coordinate before the last of them.
-
-        Raises
-        ------
-        JumpcadError
-            If the loop reaches a dead point, beyond which the leg's angle does not determine the links.
-        """
+        """Advance by a number of time steps; return the leg joint's coordinate before the last of them."""
         before = kernel.advance(self.model, self.moment, self.settings.dt_s, steps - 1)
         self.go_to(kernel.advance(self.model, before, self.settings.dt_s, 1))
         if not self.moment.closed:
@@ -173,13 +167,7 @@ class PlanarEngine:
 
     @contextmanager
     def world(self, mechanism: Mechanism, settings: Settings) -> Iterator["PlanarWorld"]:
-        """Put a robot on the ground, ready for release.
-
-        Raises
-        ------
-        JumpcadError
-            If the settings ask for what this engine does not have.
-        """
+        """Put a robot on the ground, ready for release."""
         for key in LACKING:
             if value := getattr(settings, key):
                 raise JumpcadError(

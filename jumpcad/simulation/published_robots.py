@@ -69,11 +69,6 @@ def load_facts(entered: Mapping[str, float] | None = None) -> Facts:
     ----------
     entered
         Values by `ROBOT.FIGURE`.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such figure, a value is in another unit, or would mean an efficiency above 1.
     """
     path = templates_folder() / "validation.toml"
     data, text = read_toml(path)

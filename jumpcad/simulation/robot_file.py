@@ -261,13 +261,7 @@ def load_robot(path: str | Path) -> Multibody:
 
 
 def five_bar_robot(file: RobotFile) -> Mechanism:
-    """Return the five-bar of a file, whose masses are not compared with the stated one.
-
-    Raises
-    ------
-    JumpcadError
-        If a value of the design is out of range, or its springs do not hold the stated energy.
-    """
+    """Return the five-bar of a file, whose masses are not compared with the stated one."""
     capsules, foot = capsule_robot(Design(**(file.design or {}))), file.foot
     spring = replace(
         capsules.spring, preload_rad=math.radians(file.spring.preload_deg), one_sided=file.spring.one_sided

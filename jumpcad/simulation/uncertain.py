@@ -89,11 +89,6 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
         A key of `ENGINES`.
     seed, samples
         Random seed; number of jumps, a power of two.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such engine, or it is not installed.
     """
     points = sobol(INPUTS + (not settings.draws), samples, np.random.default_rng(seed))
     inputs = varied_inputs(robot, settings, np.clip(points, EDGE, 1.0 - EDGE))

@@ -67,12 +67,6 @@ def faults(stl: bytes) -> list[str]:
 
 
 def require_part(name: str, stl: bytes) -> None:
-    """Refuse a file that is not one closed part.
-
-    Raises
-    ------
-    CannotBuildError
-        Naming the part and its faults.
-    """
+    """Refuse a file that is not one closed part."""
     if found := faults(stl):
         raise CannotBuildError(f"part {name} cannot be printed: {', '.join(found)}: thicken it where it is thinnest")

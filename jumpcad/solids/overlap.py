@@ -17,11 +17,6 @@ def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -
         The stacks, each in its own frame (mm).
     T_world_a, T_world_b
         Their poses (4, 4), lengths in mm; the two extrusion axes must be parallel (either way round).
-
-    Raises
-    ------
-    ValueError
-        If the extrusion axes are not parallel.
     """
     T_a_b = np.linalg.inv(T_world_a) @ T_world_b
     turn, shift = T_a_b[:3, :3], T_a_b[:3, 3]

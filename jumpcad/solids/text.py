@@ -23,11 +23,6 @@ def text(label: str, height_mm: float) -> Region:
     """Return a line of text with capitals of a given height, from the origin along +x, standing on y = 0.
 
     Letters that the font lacks are left out: see `engravable`.
-
-    Raises
-    ------
-    JumpcadError
-        If the height is not positive or the label has nothing to draw.
     """
     label = engravable(label)
     contours, x = [], 0.0

@@ -75,11 +75,6 @@ def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Arra
 
     `T_world_body` (4, 4) is the pose of the part's body. What comes from above comes square to its tray, which may be
     inclined; toes come from outside onto the foot's stubs, their screws with their heads last.
-
-    Raises
-    ------
-    ValueError
-        If `move.along` is no known direction.
     """
     if move.along == "from above":
         return -T_world_body[:3, 2]

@@ -31,13 +31,7 @@ SHOULDER_MM = 0.8
 
 
 def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
-    """Return the bearings that a workshop allows in the hub, the lightest first; None where it names none.
-
-    Raises
-    ------
-    JumpcadError
-        If none of the catalogue has the axle's bore.
-    """
+    """Return the bearings that a workshop allows in the hub, the lightest first; None where it names none."""
     name, axle = workshop.bought.leg_bearing, workshop.bought.axle_mm
     if not name:
         return [None]
@@ -53,14 +47,7 @@ def hub_bearings(workshop: Workshop) -> list[Bearing | None]:
 
 
 def roller_bearing(workshop: Workshop) -> Bearing:
-    """Return the bearing that runs on the cam.
-
-    Raises
-    ------
-    JumpcadError
-        If its bore is not that of the screw that holds it, if there is no washer beside which its outer ring is free,
-        or if it is larger than `LARGEST_ROLLER_MM`.
-    """
+    """Return the bearing that runs on the cam."""
     roller, screw = workshop.catalogue.bearings[workshop.bought.roller], workshop.catalogue.screws["M3"]
     if roller.bore_mm != screw.diameter_mm:
         raise JumpcadError(
@@ -77,13 +64,7 @@ def roller_bearing(workshop: Workshop) -> Bearing:
 
 
 def roller_washer(roller: Bearing, catalogue: Catalogue) -> Washer:
-    """Return the widest washer between lever and roller that leaves the roller's outer ring free.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none, or the screw's head on the other side touches the outer ring.
-    """
+    """Return the widest washer between lever and roller that leaves the roller's outer ring free."""
     head, free = catalogue.screws["M3"].button_head_mm, roller.outer_ring_mm - RING_PLAY_MM
     washers = sorted(catalogue.washers.values(), key=lambda washer: -washer.outer_mm)
     for washer in washers:
@@ -97,13 +78,7 @@ def roller_washer(roller: Bearing, catalogue: Catalogue) -> Washer:
 
 
 def roller_screw_mm(leg_mm: float, roller: Bearing, catalogue: Catalogue) -> float:
-    """Return the length of the screw through roller, washer, a leg of `leg_mm` and the lock nut behind it.
-
-    Raises
-    ------
-    JumpcadError
-        If no screw in stock is so long.
-    """
+    """Return the length of the screw through roller, washer, a leg of `leg_mm` and the lock nut behind it."""
     clamped = leg_mm + ROLLER_WASHER_MM + roller.width_mm + catalogue.nuts["M3 nyloc"].height_mm
     return catalogue.screws["M3"].length_for(clamped, "choose a narrower bought.leg_bearing or bought.roller")
 

@@ -42,11 +42,6 @@ class Studio:
         Where designs are saved and bundles built.
     points, number
         The points of a study, and the number of the one that `design` is.
-
-    Raises
-    ------
-    JumpcadError
-        If the first workshop cannot be loaded.
     """
 
     def __init__(
@@ -127,13 +122,7 @@ class Studio:
         return self.open(self.points.listed.get(self.best.value, self.number))
 
     def open(self, number: int) -> str:
-        """Open the point of a study with a number: its design and its workshop.
-
-        Raises
-        ------
-        JumpcadError
-            If there is no such point, or its workshop cannot be used.
-        """
+        """Open the point of a study with a number: its design and its workshop."""
         assert self.points is not None
         trial, before = self.points.trial(number), self.number
         try:

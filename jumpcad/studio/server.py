@@ -26,11 +26,6 @@ class OwnServer(viser.ViserServer):
 
     Browsers let any page connect to a web socket of this computer and say which page it was (RFC 6455, 10.2): only the
     studio's own may. The token is part of the path; a cookie would be sent to every port of this computer.
-
-    Raises
-    ------
-    JumpcadError
-        If this version of viser cannot be guarded so.
     """
 
     def __init__(self, port: int) -> None:

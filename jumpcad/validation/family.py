@@ -52,13 +52,7 @@ def family(
     *, mass_g: float, spring_energy_j: float, takeoff_angle_deg: float, pushoff_ms: float, seed: int,
     members: int = MEMBERS, generations: int = GENERATIONS, draws: int = DRAWS,
 ) -> list[Member]:  # fmt: skip
-    """Return robots of a mass and a spring energy that take off at an angle after a push-off time.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none.
-    """
+    """Return robots of a mass and a spring energy that take off at an angle after a push-off time."""
     generator = np.random.default_rng(seed)
 
     def tried(values: Array) -> Member:

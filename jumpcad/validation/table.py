@@ -67,11 +67,6 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
         Figures read in the papers by the user, by `ROBOT.FIGURE`.
     seed
         Of all samples.
-
-    Raises
-    ------
-    JumpcadError
-        If a figure is unknown, in another unit, or would mean an efficiency above 1.
     """
     facts = load_facts(entered)
     epfl = facts.robots["kovac-2008"]

@@ -20,13 +20,7 @@ WORDS = ("name", "source", "surface")
 
 @check_arguments
 def workshop_value(workshop: Workshop, key: str) -> Value:
-    """Return the value of a key that can vary.
-
-    Raises
-    ------
-    JumpcadError
-        If there is no such key, or what it names is no single number or name.
-    """
+    """Return the value of a key that can vary."""
     known = leaves(workshop.model_dump())
     if key in known and _varies(key, known[key]):
         found: Value = known[key]
@@ -45,11 +39,6 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
 
     A kit brings all its parts, before other values are set. A material is the workshop's own, or the shipped one of
     that name; materials that no role is left with are dropped. Keys that hold whole numbers take rounded ones.
-
-    Raises
-    ------
-    JumpcadError
-        If a key cannot vary, or a value is out of range, unknown, or contradicts another.
     """
     data = workshop.model_dump()
     kits = load_catalogue().kits

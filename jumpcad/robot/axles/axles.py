@@ -86,13 +86,7 @@ def pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
 
 
 def require_retention(catalogue: Catalogue, chosen: BoughtParts) -> None:
-    """Reject axles for which the workshop's retention is not possible.
-
-    Raises
-    ------
-    JumpcadError
-        Saying what to choose.
-    """
+    """Reject axles for which the workshop's retention is not possible."""
     rod, how, size = catalogue.rods[chosen.axle], chosen.retention, chosen.axle_mm
     if how == "nuts" and size != (thread := catalogue.screws["M3 long"].diameter_mm):
         raise JumpcadError(

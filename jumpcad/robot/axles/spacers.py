@@ -31,13 +31,7 @@ def spacers(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
 
 
 def require_axle(workshop: Workshop) -> None:
-    """Reject axles around which the spacers' tubes would have no wall.
-
-    Raises
-    ------
-    JumpcadError
-        Naming the thickest axle that they hold.
-    """
+    """Reject axles around which the spacers' tubes would have no wall."""
     axle, fits = workshop.bought.axle_mm, workshop.fits.drawn
     thickest = 2.0 * (SPACER_RADIUS_MM - fits.sliding_mm - fits.wall_min_mm)
     if axle > thickest:

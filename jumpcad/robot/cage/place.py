@@ -167,13 +167,7 @@ def hoop_mm(cage: Cage, bar: CageBar, arc: CageArc) -> tuple[float, float]:
 
 
 def cage_place(layout: Layout, workshop: Workshop) -> Cage | None:
-    """Return a layout with the cage of its workshop, if that has one.
-
-    Raises
-    ------
-    CannotBuildError
-        If a bar finds no room over what moves, is shorter than the body is wide, or the bars are too near for a bow.
-    """
+    """Return a layout with the cage of its workshop, if that has one."""
     rod, table = workshop.cage_rod, workshop.cage
     if rod is None:
         return None

@@ -59,11 +59,6 @@ def fittings_of(
     """Return the places of all openings, as near to the boards as the plates are free.
 
     `seats` are what the plates hold besides the obstacles, such as axles, which keep `seat_mm` around them.
-
-    Raises
-    ------
-    CannotBuildError
-        If something finds no room.
     """
     low, high = lateral.inside
     kept = [disc("axle's seat", place, seat_mm, (low - 100.0, high + 100.0)) for place in seats]

@@ -42,11 +42,6 @@ def bar_place(what: str, bar: LegBar, first_mm: float, least_mouth_mm: float, la
     """Return the place of a bar from `first_mm` to `last_mm` along a leg, the first socket's mouth not before a limit.
 
     `bends` tells whether the first socket carries a bending moment.
-
-    Raises
-    ------
-    CannotBuildError
-        If the leg is too short for two sockets.
     """
     socket = SOCKET_HEIGHTS * bar.height_mm if bends else END_SOCKET_MM
     mouth, far = max(first_mm + socket, least_mouth_mm), last_mm - END_SOCKET_MM

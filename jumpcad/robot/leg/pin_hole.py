@@ -60,11 +60,6 @@ def pin_hole(
         pin, and are left out.
     diameter_mm, axle_mm
         Of the hole, and of the axles whose bores the plate has.
-
-    Raises
-    ------
-    CannotBuildError
-        If something is in the pin's way, or too close to the hole.
     """
     hub, plate = linkage.back_pivot_mm, lateral.left_plate
     rest, at_stop = (

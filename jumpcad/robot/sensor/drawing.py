@@ -37,13 +37,7 @@ SCREWS_MM = (4.0, 5.0, 6.0)
 
 
 def sensor_mount(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
-    """Yield the mount, if there is a sensor.
-
-    Raises
-    ------
-    CannotBuildError
-        If the plate is so thick that the switch has no base outside it.
-    """
+    """Yield the mount, if there is a sensor."""
     holes = HoleSizes.of(workshop, layout.hub_bearing)
     sensor = layout.sensor
     if sensor is None:

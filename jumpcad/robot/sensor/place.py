@@ -173,11 +173,6 @@ def sensor_place(
         Places of axles and pins that the plate holds, by name; the switch keeps away from their seats.
     motor
         The motor's shaft, which may end in the plate.
-
-    Raises
-    ------
-    CannotBuildError
-        If the cam gear has no room for the track, or the plate none for the switch.
     """
     travel, half = needs.travel, _half_mm(needs.part)
     low, high, width = _track_mm(drive, needs)

@@ -53,13 +53,7 @@ def best_place(
     cost: Callable[[Array], Array],
     ways: Remedy,
 ) -> int:
-    """Return the index of the cheapest candidate that collides with no obstacle.
-
-    Raises
-    ------
-    CannotBuildError
-        If no candidate is free; it says by how much the best one collides, with what, and the ways out.
-    """
+    """Return the index of the cheapest candidate that collides with no obstacle."""
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
     cloud = Cloud.of(obstacles, y_mm)

@@ -52,11 +52,6 @@ def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSprin
     """Return the place (2,) of the pin that holds the springs' body arms: across both plates, in front of the hub.
 
     The springs' turns fit one direction only.
-
-    Raises
-    ------
-    NoPinRoomError
-        With the other directions that are free: springs for one of them may fit.
     """
     half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.pin_radius_mm
     (place,) = places = around(hub, radius, np.array([spring.plate_pin_rad]))

@@ -126,11 +126,6 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float, gap_
     """Return the angle past rest of the stop: the required one, or the largest below it that the links can reach.
 
     Leg and front link then have `gap_mm` between them.
-
-    Raises
-    ------
-    CannotBuildError
-        If the loop does not close, or leg and front link collide, at the least angle with the pad's deflection.
     """
     least = math.radians(LEAST_DEG)
     angle = wanted_rad
@@ -169,11 +164,6 @@ def stop_place(
     """Return the place of the stop behind the leg, across both plates: the free one nearest to the wanted radius.
 
     It has `reserve_mm` more than the usual clearances around it.
-
-    Raises
-    ------
-    CannotBuildError
-        If the pad is too thin, or there is no room behind the leg.
     """
     if pad.thickness_mm < STOP_PAD_MIN_MM:
         raise CannotBuildError(

@@ -90,11 +90,6 @@ class FittedFigures:
         """Return the figures at a point (d,) of the unit cube, of a robot with these figures of its layout.
 
         Without them, of a robot whose layout is about that of the robots beside it.
-
-        Raises
-        ------
-        OverflowError
-            Far from all that was built.
         """
         plain = features(unit[None], self._scale)[0]
         layout = (self._layouts * plain).sum(axis=1) if laid is None else of_layout(laid)

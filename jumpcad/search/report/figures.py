@@ -59,11 +59,6 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
     """Write a figure as `folder/name.svg` and `folder/name.png`, with a seal; return the first path.
 
     A picture of `PICTURES` has its explanation below it.
-
-    Raises
-    ------
-    JumpcadError
-        If the folder cannot be written, or a picture of the user's has the name (unless `force`).
     """
     pixels = io.BytesIO()
     if name in PICTURES:

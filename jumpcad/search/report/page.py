@@ -45,13 +45,7 @@ LEAST_GAIN = 5e-4
 
 @check_arguments
 def write_study_page(store: StudyStore, name: str) -> str:
-    """Return the page of a study, also of one that still runs.
-
-    Raises
-    ------
-    JumpcadError
-        If the study file is damaged.
-    """
+    """Return the page of a study, also of one that still runs."""
     folder = templates_folder() / "report"
     found, identity = summary(store), store.identity
     cost, is_front = described_cost(identity), identity["method"] in FRONTS

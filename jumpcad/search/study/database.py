@@ -154,11 +154,6 @@ def locked(path: Path) -> Iterator[None]:
     """Lock a study file for this process, by a file beside it, which goes with the lock.
 
     SQLite's own locks, for readers and a writer, are independent of this one.
-
-    Raises
-    ------
-    JumpcadError
-        If the file cannot be written, or is locked by another process.
     """
     require_path(path)
     lock = _lock(path)

@@ -126,11 +126,6 @@ class Evaluator:
         Of variants that are `left_out`, by their keys, the outcome is given: a screen has seen them.
 
         Trials are kept in one transaction; if the run is interrupted or fails meanwhile, the finished ones are kept.
-
-        Raises
-        ------
-        JumpcadError
-            If the model cannot work at all, or the study file holds other designs at these places.
         """
         variants = [Variant.of(design) for design in designs]
         fresh: dict[Key, int] = {}

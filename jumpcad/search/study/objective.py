@@ -135,14 +135,7 @@ class Objective:
         return f"{score:.6g}" if self.unit == OWN_UNIT else f"{score:.6g} {self.unit}"
 
     def score(self, evaluation: Evaluation) -> float | None:
-        """Return the score of a feasible evaluation, None of a rejected one.
-
-        Raises
-        ------
-        JumpcadError
-            If the model behind the evaluation does not give the figures that the objective needs, one of them is 0
-            where it divides, or an own objective fails.
-        """
+        """Return the score of a feasible evaluation, None of a rejected one."""
         return self.unrequired(evaluation) if evaluation.feasible else None
 
     def unrequired(self, evaluation: Evaluation) -> float | None:
@@ -163,13 +156,7 @@ class Objective:
         return name in tried.lacking
 
     def require(self, names: Iterable[str], what: str = "the objective") -> None:
-        """Require that it needs no other figures than these; an own function is tried on figures of 1 and of 0.
-
-        Raises
-        ------
-        JumpcadError
-            Naming the first that it needs besides, and the most similar one that there is.
-        """
+        """Require that it needs no other figures than these; an own function is tried on figures of 1 and of 0."""
         names = [*names]
         for tried in (TriedFigures(names, 1.0), TriedFigures(names, 0.0)):
             with suppress(JumpcadError, ZeroDivisionError):  # what else these do says nothing of a jump's figures
@@ -227,13 +214,7 @@ OBJECTIVES: dict[str, Objective] = {
 
 @check_arguments
 def find_objective(objective: str | Callable[..., Any]) -> Objective:
-    """Return an objective: by its name, as `FILE.py:FUNCTION`, or a function of the figures of a jump.
-
-    Raises
-    ------
-    JumpcadError
-        If there is none of that name, or it is no function.
-    """
+    """Return an objective: by its name, as `FILE.py:FUNCTION`, or a function of the figures of a jump."""
     if isinstance(objective, str):
         if objective in OBJECTIVES:
             return OBJECTIVES[objective]

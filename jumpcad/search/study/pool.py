@@ -99,13 +99,7 @@ class Pool:
             self._executor = None
 
     def evaluate(self, model: RobotModel, designs: Sequence[Design | Variant]) -> Iterator[Outcome]:
-        """Evaluate designs; outcomes come in the order in which they finish.
-
-        Raises
-        ------
-        JumpcadError
-            If the model itself cannot work, whatever the design, or there is nobody to evaluate any more.
-        """
+        """Evaluate designs; outcomes come in the order in which they finish."""
         sent = cloudpickle.dumps((model, model.versions()))  # once per batch; executors would do it once per task
         waiting = [(index, Variant.of(design)) for index, design in enumerate(designs)][::-1]
         running: dict[Future[bytes], tuple[int, Variant]] = {}
@@ -202,11 +196,6 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
     """Return a pool of processes on this machine, by default one for each core that this process may use.
 
     With 0 workers, designs are evaluated in the calling process, without a timeout.
-
-    Raises
-    ------
-    JumpcadError
-        If the number of workers or the timeout is out of range.
     """
     if workers is None:
         workers = cores()
@@ -226,13 +215,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
 
 @check_arguments
 def open_pool(workers: int | None = None, dask: str | None = None, limit_s: float = 60.0) -> Pool:
-    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`.
-
-    Raises
-    ------
-    JumpcadError
-        As these, or if both `workers` and `dask` are given.
-    """
+    """Return a pool of local processes, or on a Dask scheduler; see `local_pool` and `dask_pool`."""
     if dask is not None and workers is not None:
         raise JumpcadError("workers and dask exclude each other: a Dask cluster has its own workers")
     return local_pool(workers, limit_s) if dask is None else dask_pool(dask, limit_s)
@@ -248,14 +231,7 @@ def _require_limit(limit_s: float) -> None:
 
 @check_arguments
 def dask_pool(address: str, limit_s: float = 60.0) -> Pool:
-    """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad).
-
-    Raises
-    ------
-    JumpcadError
-        If Dask is not installed, no scheduler answers at the address, it has no workers, or the timeout is out of
-        range.
-    """
+    """Return a pool on the workers of a Dask scheduler (they need one thread each, and this version of jumpcad)."""
     _require_limit(limit_s)
     try:
         distributed: Any = importlib.import_module("distributed")  # its annotations are incomplete

@@ -102,13 +102,7 @@ class Result(ByValue):
 
     @property
     def design(self) -> Design:
-        """The winner's design.
-
-        Raises
-        ------
-        CannotBuildError
-            If there is no winner.
-        """
+        """The winner's design."""
         return self._won().design
 
     @property
@@ -168,13 +162,6 @@ class Result(ByValue):
         """Write the winner's design file and, where the search varied the workshop, beside it the workshop's.
 
         `jumpcad build X.toml --workshop X-workshop.toml` makes the robot.
-
-        Raises
-        ------
-        CannotBuildError
-            If there is no winner.
-        JumpcadError
-            If the file does not end in .toml, cannot be written, or is a user's and `force` is not given.
         """
         texts = {Path(path): self.to_toml(), workshop_file(Path(path)): self.workshop_toml()}
         files = {file: text for file, text in texts.items() if text}

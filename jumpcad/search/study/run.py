@@ -69,11 +69,6 @@ def run_study(
     """Run a study, or continue the one in a file; None keeps it in memory.
 
     `tell` is called with the reasons, a line each, where none of the first designs jumps.
-
-    Raises
-    ------
-    JumpcadError
-        If the request is wrong, or the file holds another study, is damaged or in use.
     """
     prior, remark = _read_prior(request)
     with StudyStore.write(path, request.identity(prior)) as store:

@@ -62,13 +62,7 @@ class StudyStore:
     @classmethod
     @check_arguments
     def write(cls, path: str | Path | None, identity: Mapping[str, Any]) -> "StudyStore":
-        """Create a study, or continue the one in `path` if it has the same identity; None keeps it in memory.
-
-        Raises
-        ------
-        JumpcadError
-            If the file holds another study, is not a study, is damaged, or is being written by another run.
-        """
+        """Create a study, or continue the one in `path` if it has the same identity; None keeps it in memory."""
         path = None if path is None else Path(path)
         store = cls(path, path is not None and not os.path.lexists(path))
         if path is not None:
@@ -90,13 +84,7 @@ class StudyStore:
     @classmethod
     @check_arguments
     def read(cls, path: str | Path) -> "StudyStore":
-        """Open a study for reading, as it is now: also while it is being written, and in a folder that is not.
-
-        Raises
-        ------
-        JumpcadError
-            If there is no such file, or it is not a study, is damaged, or cannot be opened.
-        """
+        """Open a study for reading, as it is now: also while it is being written, and in a folder that is not."""
         path = Path(path)
         require_path(path)
         if not os.path.isfile(path):  # unlike Path.is_file, False for a name that is too long

@@ -193,13 +193,7 @@ def count_rejections(trials: Sequence[Trial]) -> dict[str, int]:
 
 @check_arguments
 def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) -> None:
-    """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced.
-
-    Raises
-    ------
-    JumpcadError
-        If the file exists, ends otherwise, or cannot be written; for Parquet also if PyArrow is not installed.
-    """
+    """Write trials to a `.csv` or `.parquet` file, over an existing one only if forced."""
     path = Path(path)
     require_target(path, TABLES, force)
     records = _records(trials)
@@ -212,13 +206,7 @@ def write_table(trials: Sequence[Trial], path: str | Path, force: bool = False) 
 
 @check_arguments
 def to_frame(trials: Sequence[Trial]) -> Any:
-    """Return trials as a `pandas.DataFrame` with the columns of `write_table`.
-
-    Raises
-    ------
-    JumpcadError
-        If pandas is not installed.
-    """
+    """Return trials as a `pandas.DataFrame` with the columns of `write_table`."""
     try:
         import pandas
     except ImportError:

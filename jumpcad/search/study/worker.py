@@ -48,13 +48,7 @@ class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has 
 
 
 def require_descriptors(workers: int) -> None:
-    """Require that so many workers can be started: 17 descriptors are open for two, and two more for each other one.
-
-    Raises
-    ------
-    JumpcadError
-        If this process may not open as many files.
-    """
+    """Require that so many workers can be started: 17 descriptors are open for two, and two more for each other one."""
     try:
         resource = importlib.import_module("resource")  # of POSIX alone
     except ImportError:
