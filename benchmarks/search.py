@@ -2,8 +2,8 @@
 
 The capsule robot's fitness, or with `--model printed` the printed robot's body lengths (0.1 to 0.3 s an evaluation).
 The usual bounds of the robot; a rejected design scores 0; the best known of the capsule robot is 11.87. Random search
-and the published settings of the genetic algorithm are run too, and CMA-ES (pycma) and TPE (Optuna) as references from other
-projects. "GP-EI, spread start" has no designs ranked by the capsule robot first; on the capsule robot it is "GP-EI".
+and the published settings of the genetic algorithm are run too, and CMA-ES (pycma) and TPE (Optuna) as references from
+other projects. "GP-EI, spread start" has no designs ranked by a quick robot first; on the capsule robot it is "GP-EI".
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--model printed] [--evaluations N] [--json]`; in a
 method's name, write `;` for a comma. All of it takes about a quarter of an hour on the capsule robot.
 `--required --seeds 8 --evaluations 45` shows what requirements cost a search of the printed robot.

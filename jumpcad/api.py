@@ -12,12 +12,11 @@ from jumpcad.design import Design
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.model import Mechanism, Multibody
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation import simulate as simulate_mechanism
-from jumpcad.simulation.chain import Chain
 from jumpcad.workshop import Workshop
 
 __all__ = ["build", "capsule_robot", "check", "evaluate", "export", "simulate"]
@@ -51,7 +50,7 @@ def build(design: Design | str | Path, workshop: Workshop | None = None, name: s
 
 @check_arguments
 def simulate(
-    robot: Mechanism | Chain | Design | str | Path, settings: Settings | None = None, engine: str | None = None
+    robot: Multibody | Design | str | Path, settings: Settings | None = None, engine: str | None = None
 ) -> Jump:
     """Simulate the jump of a robot; see `jumpcad.simulation.simulate`.
 

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from jumpcad.arguments import check_arguments
 from jumpcad.files import Contradiction, Record, TomlTable, find_template
-from jumpcad.mechanism.model import Mechanism, Surface
+from jumpcad.mechanism.model import Mechanism, Multibody, Surface
 
 Coefficient = Annotated[float, Field(ge=0, le=100)]
 PRINTED_CLEARANCE_M = 0.001
@@ -112,7 +112,7 @@ STUDY = {"ground": 1.5, "body": 0.5, "pin": 0.0, "joint_damping_nms_per_rad": 0.
 """Of the capsule robot: what the published study's results were made with; its foot follows the settings."""
 
 
-def coefficients(mechanism: Mechanism, settings: Settings) -> Coefficients:
+def coefficients(mechanism: Multibody, settings: Settings) -> Coefficients:
     """Return what rubs: what the settings say, and where they say nothing, the printed robot's own, else the study's.
 
     A printed robot's pins are dry: they have no viscous damping.
@@ -131,14 +131,14 @@ def coefficients(mechanism: Mechanism, settings: Settings) -> Coefficients:
     return Coefficients(foot=settings.foot_friction, **chosen)
 
 
-def takeoff_clearance_m(mechanism: Mechanism, settings: Settings) -> float:
+def takeoff_clearance_m(mechanism: Multibody, settings: Settings) -> float:
     """Return how far all contacts must get from the ground for a jump: as the settings say, else the robot's own.
 
-    0, that of the study's capsules, asks for nothing but the time in the air.
+    0, that of the study's capsules and of robots that are no five-bars, asks for nothing but the time in the air.
     """
     if settings.takeoff_clearance_m is not None:
         return settings.takeoff_clearance_m
-    return 0.0 if mechanism.friction is None else PRINTED_CLEARANCE_M
+    return PRINTED_CLEARANCE_M if isinstance(mechanism, Mechanism) and mechanism.friction else 0.0
 
 
 @check_arguments

@@ -34,6 +34,6 @@ def statics_refusal(design: Design, workshop: Workshop, settings: Settings) -> t
     masses = {BODY: body_kg}
     bodies = {name: replace(body, mass_kg=masses.get(name, 0.0)) for name, body in plain.bodies.items()}
     spring = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
-    robot = with_spring_factor(replace(plain, bodies=bodies, spring=spring), settings.spring_efficiency)
+    robot = with_spring_factor(replace(plain, bodies=bodies, springs=(spring,)), settings.spring_efficiency)
     _, weak = statics_findings(robot, settings.gravity_m_s2)
     return tuple(replace(one, message=f"{one.message}; for its body alone") for one in errors([weak]))

@@ -16,6 +16,10 @@ from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump
 
 DIGITS, ROLL_DIGITS = 6, 3
+ASSUMED = (
+    "cam_kg_m2", "gear_kg_m2", "rotor_kg_m2", "backlash_deg", "cam_rad_s", "rebound", "friction_mm", "train_nm_per_rad",
+    "lever_nm_per_rad", "contact_nm_per_rad", "roller_kg_m2",
+)  # fmt: skip
 FLIGHT = "turn_deg", "touchdown_pitch_deg", "lateral_offset_mm"
 
 
@@ -76,20 +80,8 @@ def release_facts(release: Release) -> dict[str, Any]:
 
 def _assumed(parts: ReleaseParts) -> dict[str, float]:
     """Return inertias, stiffnesses and clearances of a release, referred to the cam, with nine significant digits."""
-    values = {
-        "cam_kg_m2": parts.cam_kg_m2,
-        "gear_kg_m2": parts.gear_kg_m2,
-        "rotor_kg_m2": parts.rotor_kg_m2,
-        "backlash_deg": math.degrees(parts.backlash_rad),
-        "cam_rad_s": parts.cam_rad_s,
-        "rebound": parts.rebound,
-        "friction_mm": parts.friction_mm,
-        "train_nm_per_rad": parts.train_nm_per_rad,
-        "lever_nm_per_rad": parts.lever_nm_per_rad,
-        "contact_nm_per_rad": parts.contact_nm_per_rad,
-        "roller_kg_m2": parts.roller_kg_m2,
-    }
-    return {name: float(f"{value:.9g}") for name, value in values.items()}
+    values = {**vars(parts), "backlash_deg": math.degrees(parts.backlash_rad)}
+    return {name: float(f"{values[name]:.9g}") for name in ASSUMED}
 
 
 def stop_facts(robot: Robot) -> dict[str, Any]:

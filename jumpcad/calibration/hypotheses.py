@@ -123,7 +123,7 @@ def _with_preload(subject: Subject, preload_rad: float) -> Subject:
     spring = replace(robot.spring, preload_rad=robot.spring.preload_rad + preload_rad)
     faster = math.sqrt(spring.energy_j / robot.spring.energy_j)
     off = robot.roller_off and replace(robot.roller_off, leg_rad_s=faster * robot.roller_off.leg_rad_s)
-    return replace(subject, robot=replace(robot, spring=spring, roller_off=off))
+    return replace(subject, robot=replace(robot, springs=(spring,), roller_off=off))
 
 
 HYPOTHESES: dict[str, Callable[[Sequence[Subject], Values, np.random.Generator], Parts]] = {

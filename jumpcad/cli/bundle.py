@@ -74,7 +74,7 @@ def build(
     if not force:
         _require_same_design_file(robot, design_file(design), folder)
     with status(f"simulating {robot.name} …"):
-        plain = replace(capsule_robot(robot.design), spring=replace(robot.spring, one_sided=False))
+        plain = replace(capsule_robot(robot.design), springs=(replace(robot.spring, one_sided=False),))
         printed, capsule = (headline(one) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
@@ -229,13 +229,7 @@ def _print_facts(facts: dict[str, Any], parts: bool) -> None:
         masses = table("part", ">quantity", "material", ">g each", ">g", "mass from")
         for line in facts["masses"]:
             grams = 1000.0 * line["mass_kg"]
-            row = (
-                line["quantity"],
-                line["material"],
-                f"{grams:.2f}",
-                f"{line['quantity'] * grams:.2f}",
-                line["source"],
-            )
+            row = line["quantity"], line["material"], f"{grams:.2f}", f"{line['quantity'] * grams:.2f}", line["source"]
             masses.add_row(line["name"], *map(str, row))
         masses.add_row("all", "", "", "", f"{1000.0 * facts['mass_kg']:.2f}", "", style="bold")
         screen.print(masses)

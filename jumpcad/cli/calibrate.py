@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 SETTINGS = Path("my-settings.toml")
 UNITS = {"distance": (1000.0, "mm"), "height": (1000.0, "mm"), "battery": (1.0, "J"), "speed": (1.0, "m/s"),
          "angle": (1.0, "°")}  # fmt: skip
+SAMPLER = "walkers", "steps", "autocorrelation", "effective", "converged"
 FILES_HELP = "Measured robots: templates (kenan-1.0, kenan-2.0) or TOML files, one each."
 PREDICT_HELP = "Predict this measured robot, without calibrating on its jumps; may be repeated."
 
@@ -89,14 +90,7 @@ def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
             subject.name: {"median": subject.surface.error, "largest": float(subject.surface.errors.max())}
             for subject in posterior.model.subjects
         },
-        "sampler": {
-            "seed": seed,
-            "walkers": posterior.walkers,
-            "steps": posterior.steps,
-            "autocorrelation": posterior.autocorrelation,
-            "effective": posterior.effective,
-            "converged": posterior.converged,
-        },
+        "sampler": {"seed": seed, **{name: getattr(posterior, name) for name in SAMPLER}},
     }
 
 

@@ -72,7 +72,7 @@ def optimize(
     source = context.get_parameter_source("seed")
     asked = seeds_of(seeds, methods or (), source is not None and source.name == "COMMANDLINE")
     requests = options.requests(methods or [DEFAULT], asked or [options.seed], evaluations)
-    robot, space, centre = requests[0].model, requests[0].space, requests[0].around
+    robot, space, centre = options.robot_model(), requests[0].space, requests[0].around
     base = options.study or Path(requests[0].default_name())
     paths = [base] if asked is None else study_files(requests, options.study)
     for path in paths:
@@ -90,7 +90,7 @@ def optimize(
     with options.pool() as pool:
         for request, path in zip(requests, paths, strict=True):
             with watching(evaluations, as_json) as watch:
-                headed = watch if as_json else _headed(_heading(request, path), watch)
+                headed = watch if as_json else _headed(request, path, watch)
                 tell = str if as_json else partial(complain, exit_code=1)  # str: to nobody
                 try:
                     results.append(run_study(request, path, pool, headed, tell))
@@ -150,17 +150,12 @@ def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
         return errors(costly_findings(build(result.design, robot.varied(result.winner.workshop).workshop)))
 
 
-def _heading(request: "Request", path: Path) -> str:
-    """Return what is printed before a search."""
+def _headed(request: "Request", path: Path, watch: "Watch") -> "Watch":
+    """Return a watch that says what is searched before the first trial, when the study was opened without error."""
     name, free = request.model.name, request.space.dimension
     pick = f"{request.pick} for the robust pick" if request.pick else NO_PICK
     study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
-    return f"{study}\nevaluations: {request.searched} for the search, {pick}"
-
-
-def _headed(heading: str, watch: "Watch") -> "Watch":
-    """Return a watch that prints the heading before the first trial, when the study has been opened without error."""
-    waiting = [heading]
+    waiting = [f"{study}\nevaluations: {request.searched} for the search, {pick}"]
 
     def headed(trial: "Trial", computed: bool) -> None:
         if waiting:

@@ -152,6 +152,10 @@ class OptimizeOptions(SearchOptions):
         ),
     ] = None
 
+    def robot_model(self) -> "RobotModel":
+        """Return the model that the options describe, with what is required."""
+        return super().robot_model().requiring(self.require or ())
+
     def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[Request]":
         """Return what is asked for, with each method and seed."""
         from jumpcad.design import load_design
@@ -160,7 +164,7 @@ class OptimizeOptions(SearchOptions):
         begun = [load_design(one) for one in self.start or ()]
         centre = None if self.around is None else load_design(self.around)
         only = [] if self.only is None else [name.strip() for name in self.only.split(",")]
-        robot = self.robot_model().requiring(self.require or ())
+        robot = self.robot_model()
         space = self.space(robot, around=centre, only=only, within_percent=self.within, study=PAPER in methods)
         return [
             Request(

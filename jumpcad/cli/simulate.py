@@ -71,10 +71,10 @@ def simulate(
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.mechanism.model import Mechanism
     from jumpcad.robot.robot import Robot
     from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump
-    from jumpcad.simulation.chain import Chain
     from jumpcad.simulation.uncertain import uncertainty_of
 
     landings = "--landing" if landing else f"--jumps {row}"
@@ -107,10 +107,10 @@ def simulate(
         require_target(trajectory, (".csv", ".json"), force)
     note_template(design)
     written = robot_from_file(design, workshop)
-    chain = isinstance(written, Chain)
-    if chain and (plain or trajectory or flight):
-        raise JumpcadError(f"{design}: is no five-bar: leave --capsule, --published, --flight and --trajectory out")
-    subject: Any = None if isinstance(written, Chain) else written.design if written else load_design(design)
+    chain = written and not isinstance(written, Mechanism)
+    if chain and plain:
+        raise JumpcadError(f"{design}: is no five-bar: leave --capsule and --published out")
+    subject: Any = getattr(written, "design", None) if written else load_design(design)
     if published:
         _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
@@ -121,7 +121,7 @@ def simulate(
     if (uncertain or landed) and written and not os.path.isdir(design):
         asked_for = "--uncertain is" if uncertain else "--landing and --jumps are"
         raise JumpcadError(f"{design}: {asked_for} for printed robots: give the design, or its bundle")
-    changes = ({"flight": "simulated"} if flight else {}) | ({"trajectory": True} if trajectory else {})
+    changes = ({"flight": "simulated"} if flight or chain else {}) | ({"trajectory": True} if trajectory else {})
     asked = load_settings(settings).model_copy(update=changes)
     written = None if capsule or landed else written
     robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)

@@ -12,9 +12,8 @@ from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
-    from jumpcad.mechanism.model import Mechanism
+    from jumpcad.mechanism.model import Multibody
     from jumpcad.robot.robot import Robot
-    from jumpcad.simulation.chain import Chain
 
 
 def completion(kind: str) -> Callable[[str], list[str]]:
@@ -115,7 +114,7 @@ def design_file(subject: str) -> Path:
     return bundle.file("design.toml") if bundle else find_template("robots", subject)
 
 
-def robot_from_file(subject: str, workshop: str | None) -> "Mechanism | Chain | None":
+def robot_from_file(subject: str, workshop: str | None) -> "Multibody | None":
     """Return the robot of a URDF file, also that in a bundle, or of a TOML file with bodies; None for anything else."""
     from jumpcad.simulation.robot_file import is_robot_file, load_robot
 

@@ -18,9 +18,11 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+import numpy as np
+
 from jumpcad.exporters.xml import Value, allowed, friction_nm, limits, written, wxyz
 from jumpcad.files.rendering import fill
-from jumpcad.mechanism.model import BODY, Joint, Mechanism, Spring
+from jumpcad.mechanism.model import BODY, Joint, Mechanism, Multibody
 from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
 from jumpcad.settings import Settings, coefficients
@@ -46,7 +48,7 @@ LEAST_ITERATIONS, MUJOCO_ITERATIONS = 50, 100
 GROUND: Attributes = {"name": "ground", "type": "plane", "size": "2 2 0.1", "contype": "0", "conaffinity": "0"}
 
 
-def write_mjcf(mechanism: Mechanism, settings: Settings | None = None) -> str:
+def write_mjcf(mechanism: Multibody, settings: Settings | None = None) -> str:
     """Return the document that the engine runs, with the time step, friction and damping of the settings."""
     settings = settings or Settings()
     rubs = coefficients(mechanism, settings)
@@ -62,22 +64,22 @@ def write_mjcf(mechanism: Mechanism, settings: Settings | None = None) -> str:
             pairs.append({"geom2": name, "condim": "6" if spin or roll else "3",
                           "friction": (slide, slide, spin, roll, roll), **stiff(settings),
                           "solimp": CONTACT_IMPEDANCE})  # fmt: skip
-    keys = {"wound": standing(mechanism, 1.0)}
+    keys = {"wound": standing(mechanism, 1.0)} if isinstance(mechanism, Mechanism) else {}
     if mechanism.roller_off:
         keys["released"] = release_pose(mechanism)
     return filled(mechanism, settings, written, spheres, {name: (pose, {}) for name, pose in keys.items()},
-                  tendons=springs(mechanism.spring), floor=GROUND, pairs=pairs)  # fmt: skip
+                  tendons=springs(mechanism), floor=GROUND, pairs=pairs)  # fmt: skip
 
 
 def filled(
-    mechanism: Mechanism,
+    mechanism: Multibody,
     settings: Settings,
     number: Callable[[Value], str],
     shapes: Mapping[str, Sequence[tuple[str, Attributes]]],
     keys: Mapping[str, tuple[ReleasePose, Attributes]],
     **more: Any,
 ) -> str:
-    """Return the document of a robot that stands at rest.
+    """Return the document of a robot: a five-bar stands at rest, any other has its root at the origin, held in x-z.
 
     Parameters
     ----------
@@ -92,15 +94,19 @@ def filled(
     more
         What else the template says.
     """
-    rest = body_poses(mechanism)[BODY]
-    order = list(_numbered(mechanism, BODY))
+    rest = body_poses(mechanism)[BODY] if isinstance(mechanism, Mechanism) else np.eye(4)
+    order = list(_numbered(mechanism, mechanism.root))
+    closures = [(f"loop{number or ''}", [(loop.body_a, loop.point_a_m), (loop.body_b, loop.point_b_m)])
+                for number, loop in enumerate(mechanism.loops)]  # fmt: skip
     values = {
         "robot": mechanism,
         "options": options(settings),
         "rubs": coefficients(mechanism, settings),
         "stiff": stiff(settings),
+        "planar": not isinstance(mechanism, Mechanism),
         "place_m": rest[:3, 3],
         "attitude": wxyz(rest[:3, :3]),
+        "closures": closures,
         "joints": [
             (joint, wxyz(rotation_about_y(joint.rest_angle_rad)), _hinge(joint, mechanism, settings)) for joint in order
         ],
@@ -126,14 +132,16 @@ def options(settings: Settings) -> Attributes:
     }
 
 
-def springs(spring: Spring) -> list[Attributes]:
-    """Return the tendon of springs that only push; those that also pull are an attribute of the leg joint.
+def springs(mechanism: Multibody) -> list[tuple[str, Attributes]]:
+    """Return joints and tendons of springs that only push; those that also pull are an attribute of their joint.
 
-    A tendon along the leg joint pushes below the angle at which the springs are relaxed, and is slack beyond.
+    A tendon along the joint pushes below the angle at which the springs are relaxed, and is slack beyond.
     """
-    slack = spring.preload_rad, spring.preload_rad + FREE_RAD
-    pushing: Attributes = {"name": "springs", "stiffness": spring.stiffness_nm_per_rad, "springlength": slack}
-    return [pushing] if spring.one_sided else []
+    return [
+        (one.joint, {"name": f"springs{number or ''}", "stiffness": one.stiffness_nm_per_rad,
+                     "springlength": (one.preload_rad, one.preload_rad + FREE_RAD)})
+        for number, one in enumerate(mechanism.springs) if one.one_sided
+    ]  # fmt: skip
 
 
 def stiff(settings: Settings) -> dict[str, Sequence[float]]:
@@ -141,7 +149,7 @@ def stiff(settings: Settings) -> dict[str, Sequence[float]]:
     return {"solref": (SOFTNESS_STEPS * settings.dt_s / SUBSTEPS, 1.0), "solimp": IMPEDANCE}
 
 
-def _numbered(mechanism: Mechanism, parent: str) -> Iterator[Joint]:
+def _numbered(mechanism: Multibody, parent: str) -> Iterator[Joint]:
     """Yield the joints below a body in the order in which MuJoCo numbers them."""
     for joint in mechanism.joints:
         if joint.parent == parent:
@@ -149,28 +157,31 @@ def _numbered(mechanism: Mechanism, parent: str) -> Iterator[Joint]:
             yield from _numbered(mechanism, joint.child)
 
 
-def _hinge(joint: Joint, mechanism: Mechanism, settings: Settings) -> Attributes:
-    spring, rubs = mechanism.spring, coefficients(mechanism, settings)
+def _hinge(joint: Joint, mechanism: Multibody, settings: Settings) -> Attributes:
+    rubs = coefficients(mechanism, settings)
     friction = friction_nm(joint, mechanism, settings)
     found: Attributes = {"damping": rubs.joint_damping_nms_per_rad, "frictionloss": friction}
-    if joint.name == spring.joint:
-        if not spring.one_sided:
+    for spring in mechanism.springs:
+        if joint.name == spring.joint and not spring.one_sided:
             found["stiffness"] = spring.stiffness_nm_per_rad
             if spring.preload_rad:
                 found["springref"] = spring.preload_rad
-        found |= _limit(joint, mechanism)
-    if friction:
+    found |= _limit(joint, mechanism, settings)
+    if friction and isinstance(mechanism, Mechanism):
         found |= {"solreffriction": stiff(settings)["solref"], "solimpfriction": IMPEDANCE}
     return found
 
 
-def _limit(joint: Joint, mechanism: Mechanism) -> Attributes:
-    """Return the attributes of the leg joint's stop, if there is one.
+def _limit(joint: Joint, mechanism: Multibody, settings: Settings) -> Attributes:
+    """Return the attributes of a joint's stop, if there is one: rigid, or of a five-bar's leg its pad.
 
     MuJoCo's time constant T and damping ratio 1 mean the stiffness I/T² with the joint's inertia I.
     """
     stop = mechanism.stop
-    if stop is None:
+    if joint.stops:
+        rigid = {f"{key}limit": value for key, value in stiff(settings).items()}
+        return {"limited": "true", "range": (joint.lower_rad, joint.upper_rad), **rigid}
+    if stop is None or joint.name != stop.joint or not isinstance(mechanism, Mechanism):
         return {}
     inertia = leg_inertia_kg_m2(mechanism, stop.angle_rad)
     return {

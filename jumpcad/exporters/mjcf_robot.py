@@ -85,7 +85,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
         mechanism, settings, shortened,
         {name: [*_shapes(mechanism, body, seen, name in hulls)] for name, body in mechanism.bodies.items()},
         {name: (pose, {"ctrl": ctrl}) for name, (pose, ctrl) in keys.items()},
-        tendons=[*springs(spring), limit],
+        tendons=[*springs(mechanism), (spring.joint, limit)],
         floor=FLOOR if floor else {},
         excluded=list(_excluded(mechanism)),
         hold_nm=hold,

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from scipy.spatial.transform import Rotation
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.model import Joint, Mechanism
+from jumpcad.mechanism.model import Joint, Mechanism, Multibody
 from jumpcad.settings import Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
@@ -101,8 +101,9 @@ def limits(joint: Joint, mechanism: Mechanism) -> dict[str, float]:
             "velocity": joint.velocity_rad_s}  # fmt: skip
 
 
-def friction_nm(joint: Joint, mechanism: Mechanism, settings: Settings) -> float:
-    """Return a joint's dry friction: that of the settings, and at the leg's that of all pins, as one torque."""
-    if joint.name != mechanism.spring.joint:
-        return settings.joint_friction_nm
-    return settings.joint_friction_nm + pin_torque_nm(mechanism, coefficients(mechanism, settings).pin)
+def friction_nm(joint: Joint, mechanism: Multibody, settings: Settings) -> float:
+    """Return a joint's dry friction: its own, that of the settings, and at a five-bar's leg that of all pins."""
+    dry_nm = joint.friction_nm + settings.joint_friction_nm
+    if not isinstance(mechanism, Mechanism) or joint.name != mechanism.spring.joint:
+        return dry_nm
+    return dry_nm + pin_torque_nm(mechanism, coefficients(mechanism, settings).pin)

@@ -66,7 +66,8 @@ def capsule_robot(design: Design) -> Mechanism:
         _body(FOOT, foot, foot_contacts),
     )
     joints, loop, spring = five_bar(linkage_of(design), (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
-    return Mechanism("capsule", design, {body.name: body for body in bodies}, joints, loop, spring, foot_depth_m=radius)
+    named = {body.name: body for body in bodies}
+    return Mechanism("capsule", named, joints, (loop,), (spring,), design, foot_depth_m=radius)
 
 
 def capsule(mass_kg: float, radius_m: float, start_m: npt.ArrayLike, end_m: npt.ArrayLike) -> MassProperties:

@@ -6,17 +6,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from jumpcad.mechanism.model import BODY, Mechanism
+from jumpcad.mechanism.model import BODY, Mechanism, Multibody
 from jumpcad.transforms import Array, ByValue, chained, pose_at, rotation_about_y
 
 
 @dataclass(frozen=True, eq=False)
 class ReleasePose(ByValue):
-    """The robot at release: loop exactly closed, foot flat and still on the ground, ankle above the world's origin.
+    """The robot at release: loops closed, foot flat and still on the ground, a five-bar's ankle above the origin.
 
-    `joint_rad` holds the coordinate of every joint by name; the frame of `body` lies at `body_position_m` (3,), turned
-    about the world's y axis by `body_pitch_rad`. `joint_rad_s`, `body_m_s` (3,) and `body_rad_s`, about y, are the
-    rates of these, zero where the springs are released instantly.
+    `joint_rad` holds the coordinate of every joint by name; the frame of the joints' root, `body`, lies at
+    `body_position_m` (3,), turned about the world's y axis by `body_pitch_rad`. `joint_rad_s`, `body_m_s` (3,) and
+    `body_rad_s`, about y, are the rates of these, zero where the springs are released instantly.
     """
 
     joint_rad: dict[str, float]
@@ -27,14 +27,21 @@ class ReleasePose(ByValue):
     body_rad_s: float = 0.0
 
 
-def release_pose(mechanism: Mechanism) -> ReleasePose:
+def release_pose(mechanism: Multibody) -> ReleasePose:
     """Return pose and rates where the jump begins: where the roller has left the cam, or at rest with loaded springs.
+
+    That of a five-bar is in closed form, that of others found, see `Multibody.loaded`.
 
     Raises
     ------
     CannotBuildError
         If the loop does not close there.
     """
+    if not isinstance(mechanism, Mechanism):
+        height_m, pitch_rad, *angles = mechanism.loaded.tolist()
+        names = [joint.name for joint in mechanism.joints]
+        place_m, still = np.array([0.0, 0.0, height_m]), dict.fromkeys(names, 0.0)
+        return ReleasePose(dict(zip(names, angles, strict=True)), place_m, pitch_rad, still)
     off = mechanism.roller_off
     return standing(mechanism, 1.0) if off is None else _moving(mechanism, off.leg_rad, off.leg_rad_s)
 

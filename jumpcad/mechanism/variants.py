@@ -9,24 +9,27 @@ import numpy as np
 
 from jumpcad.design import PARAMETERS, Design, limits_of
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.mechanism.model import BODY, FOOT, Body, ContactSphere, Mechanism, five_bar
+from jumpcad.mechanism.model import BODY, FOOT, Body, ContactSphere, Mechanism, Multibody, five_bar
 from jumpcad.transforms import Array
 
 Robot = TypeVar("Robot", bound=Mechanism)
+AnyRobot = TypeVar("AnyRobot", bound=Multibody)
 LIMITS = np.array([limits_of(name) for name in PARAMETERS]).T
 
 
-def with_spring_factor(mechanism: Robot, factor: float) -> Robot:
+def with_spring_factor(mechanism: AnyRobot, factor: float) -> AnyRobot:
     """Return a robot whose springs have another stiffness, and so another energy, at the same angles.
 
     The leg leaves the cam with the same share of the springs' energy: its speed there goes with the root of the factor.
     """
     if factor == 1.0:
         return mechanism
-    spring, off = mechanism.spring, mechanism.roller_off
+    off = mechanism.roller_off
     return replace(
         mechanism,
-        spring=replace(spring, stiffness_nm_per_rad=factor * spring.stiffness_nm_per_rad),
+        springs=tuple(
+            replace(one, stiffness_nm_per_rad=factor * one.stiffness_nm_per_rad) for one in mechanism.springs
+        ),
         roller_off=off and replace(off, leg_rad_s=math.sqrt(factor) * off.leg_rad_s),
     )
 
@@ -51,8 +54,8 @@ def with_lengths(mechanism: Robot, design: Design) -> Robot:
         design=design,
         bodies=bodies,
         joints=joints,
-        loop=loop,
-        spring=replace(spring, wind_rad=design.compression_rad),
+        loops=(loop,),
+        springs=(replace(spring, wind_rad=design.compression_rad),),
         roller_off=off and replace(off, leg_rad=off.leg_rad + spring.wind_rad - design.compression_rad),
     )
 

@@ -19,6 +19,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
+from jumpcad.search.estimate.quick_robot import quick_robot, quick_size_m
 from jumpcad.search.estimate.refusal import layout_findings, room_findings
 from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
 from jumpcad.search.study.code_hash import code_digest, versions
@@ -317,23 +318,25 @@ class PrintedModel(RobotModel):
             return Evaluation("workshop", detail=str(error))
 
     def quick_score(self, design: Design, objective: Objective) -> float:
-        """Return about what the capsule robot of the design scores; -inf where it does not jump.
+        """Return about what the `quick_robot` of the design scores; -inf where it does not jump.
 
-        Where it has no such figure, its fitness ranks the designs: it has no size but that of its links.
+        Where it has no such figure, its touchdown ranks the designs.
         """
-        if not self._quick.admits(design):
-            return -math.inf
-        found = self._quick(design)
-        if found.verdict != "jump":
-            return -math.inf
-        try:
-            return objective.score(replace(found, findings=())) or 0.0
-        except JumpcadError:
-            return found.metrics["fitness"]
+        from jumpcad.simulation import simulate
 
-    @cached_property
-    def _quick(self) -> CapsuleModel:
-        return CapsuleModel(settings=load_settings("screening"), engine=self.estimate_engine)
+        robot = quick_robot(design) if self.admits(design) else None
+        if robot is None or errors(statics_findings(robot)):
+            return -math.inf
+        jump = simulate(robot, load_settings("screening"), self.estimate_engine)
+        if jump.verdict != "jump":
+            return -math.inf
+        size = quick_size_m(design)
+        figures = _figures(jump)
+        figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
+        try:
+            return objective.score(Evaluation("jump", figures)) or 0.0
+        except JumpcadError:
+            return figures["touchdown_distance_m"]
 
     @cached_property
     def estimate_engine(self) -> str:

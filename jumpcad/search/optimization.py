@@ -111,15 +111,15 @@ def optimize(
     JumpcadError
         If an argument is wrong, or the study file holds another study, is damaged or in use.
     """
-    path = None if study is None else Path(study)
+    path, learned = (None if one is None else Path(one) for one in (study, prior))
     require_study(path)
     centre = load_design(around) if isinstance(around, str | Path) else around
     begun = [load_design(one) if isinstance(one, str | Path) else one for one in start]
     robot = robot_model(model, workshop, settings, engine).requiring(require)
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop, method == PAPER)
     request = Request(
-        space, robot, objective, method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against,
-        begun, centre,
+        space, robot, objective, method, evaluations, seed, preset, batch, learned, until_percent, hours, screen,
+        against, begun, centre,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, path, pool)

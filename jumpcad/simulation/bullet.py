@@ -168,9 +168,8 @@ class BulletWorld:
         ]
         values = np.array([rows[index] for index in BODY_ORDER])
         rotation = values[:, 9:].reshape(-1, 3, 3) @ self._body_in_principal
-        return State(
-            values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], bullet.getJointState(mechanism, LEG, client)[0]
-        )
+        leg_rad = bullet.getJointState(mechanism, LEG, client)[0]
+        return State(values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], (leg_rad,))
 
     def blown_up(self) -> bool:
         """Tell whether a body's position or velocity is no longer finite."""

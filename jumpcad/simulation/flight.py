@@ -6,12 +6,13 @@ Friction in the pins is left out. Points in x-z are complex numbers x + iz.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.mechanism.linkage import Complex
-from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism, Multibody
 from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
 from jumpcad.mechanism.reflected import flying_inertias
 from jumpcad.simulation.ballistics import Ballistics
@@ -35,8 +36,9 @@ class Flight:
     `touchdown_distance_m` is the way of the centre of mass from where the robot stood with loaded springs to the first
     touch of the ground by any part, along x; `touchdown_pitch_deg` the body's pitch there against its standing loaded
     pose, from -180 to 180; `turn_deg` its turn from take-off to touchdown, not wrapped; `turn_rate_deg_s` its rate once
-    the leg is at its stop; `air_time_s` the time between both. `clears_bar_mm` is the highest thin bar that it passes,
-    `lands_on_mm` the highest step that it lands on, with their distances from its nose where it stands; 0 without.
+    the leg is at its stop, of robots that are no five-bars its mean; `air_time_s` the time between both.
+    `clears_bar_mm` is the highest thin bar that it passes, `lands_on_mm` the highest step that it lands on, with their
+    distances from its nose where it stands; 0 without.
     """
 
     touchdown_distance_m: float
@@ -87,6 +89,34 @@ def flight(
     return Flight(
         away_m, (arrived + 180.0) % 360.0 - 180.0, math.degrees(turned), math.degrees(swing.rate_rad_s), air,
         *obstacles(bottoms[flown], centre[flown].real, float((stood + standing).real.max())),
+    )  # fmt: skip
+
+
+def seen_flight(
+    mechanism: Multibody, mechanics: Mechanics, loaded: State, states: Sequence[State], air_s: float
+) -> Flight:
+    """Return the flight that a simulation has seen, from states at take-off, on the way and at the touchdown.
+
+    Turn and pitch are those of the heaviest body.
+    """
+    main = mechanism.order.index(mechanism.main)
+    pitch = np.unwrap([_pitch_rad(state, main) for state in states])
+    around = [(mechanism.order.index(name), *sphere) for name, sphere in surface(mechanism).items()]
+
+    def bottoms(state: State) -> Complex:
+        lowest = []
+        for index, at, radius in around:
+            arm = np.column_stack([at.real, np.zeros(len(at)), at.imag]) - mechanics.com_in_body_m[index]
+            place = state.com_m[index] + arm @ state.rotation[index].T
+            lowest.append(points(place[:, [0, 2]]) - 1j * radius)
+        return np.concatenate(lowest)
+
+    centre = np.array([mechanics.centre_of_mass_m(state)[0] for state in states])
+    turned, arrived = float(pitch[-1] - pitch[0]), math.degrees(pitch[-1] - _pitch_rad(loaded, main))
+    return Flight(
+        float(centre[-1] - mechanics.centre_of_mass_m(loaded)[0]), (arrived + 180.0) % 360.0 - 180.0,
+        math.degrees(turned), math.degrees(turned) / air_s, air_s,
+        *obstacles(np.stack([bottoms(state) for state in states]), centre, float(bottoms(loaded).real.max())),
     )  # fmt: skip
 
 
@@ -218,9 +248,9 @@ def _first_touch_s(time_s: Array, clearance_m: Array) -> float:
     return float(time_s[low - 1] + share * (time_s[low] - time_s[low - 1]))
 
 
-def _pitch_rad(state: State) -> float:
-    """Return the body's angle about +y."""
-    turn = state.rotation[BODY_NAMES.index(BODY)]
+def _pitch_rad(state: State, body: int = BODY_NAMES.index(BODY)) -> float:
+    """Return a body's angle about +y."""
+    turn = state.rotation[body]
     return math.atan2(turn[0, 2], turn[0, 0])
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.mechanism.linkage import Complex
-from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism, Multibody, Spring
 from jumpcad.mechanism.planar import points
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.reflected import leg_inertia_kg_m2
@@ -16,17 +16,22 @@ from jumpcad.transforms import Array
 
 @dataclass(frozen=True)
 class State:
-    """Where the bodies are and how they move, in the world, in the order of `BODY_NAMES`.
+    """Where the bodies are and how they move, in the world, in the mechanism's `order`.
 
-    `com_m` (4, 3), `rotation` (4, 3, 3) from body to world, `velocity_m_s` (4, 3) of the centres of mass,
-    `angular_rad_s` (4, 3), and the coordinate of the leg joint.
+    `com_m` (b, 3), `rotation` (b, 3, 3) from body to world, `velocity_m_s` (b, 3) of the centres of mass,
+    `angular_rad_s` (b, 3), and the coordinates of the joints with springs: of a five-bar the leg's.
     """
 
     com_m: Array
     rotation: Array
     velocity_m_s: Array
     angular_rad_s: Array
-    leg_rad: float
+    spring_rad: tuple[float, ...]
+
+    @property
+    def leg_rad(self) -> float:
+        """The coordinate of a five-bar's leg joint."""
+        return self.spring_rad[0]
 
 
 def loaded_state(mechanism: Mechanism) -> State:
@@ -40,7 +45,7 @@ def loaded_state(mechanism: Mechanism) -> State:
         np.stack([pose[:3, :3] for pose in poses]),
         still,
         still,
-        -mechanism.spring.wind_rad,
+        (-mechanism.spring.wind_rad,),
     )
 
 
@@ -48,17 +53,24 @@ Points = Mapping[str, tuple[Complex, Array]]
 """Points of bodies, x + iz (k,) in their frames, with the radii (k,) of what is round about them."""
 
 
-def surface(mechanism: Mechanism) -> Points:
-    """Return the corners of the parts' outlines; of a robot without parts its contact spheres."""
+def surface(mechanism: Multibody) -> Points:
+    """Return the corners of the parts' outlines; of a robot without parts its contact spheres.
+
+    A robot that is no five-bar may have given them to its foot alone: its hinges count too.
+    """
     if mechanism.outline_m:
         return {name: (corners, np.zeros(len(corners))) for name, corners in mechanism.outline_m.items()}
-    touching = {name: body.contacts for name, body in mechanism.bodies.items() if body.contacts}
+    touching = {
+        name: [(one.centre_m, one.radius_m) for one in body.contacts] for name, body in mechanism.bodies.items()
+    }
+    if not isinstance(mechanism, Mechanism):
+        hinges = [(joint.parent, joint.origin_m) for joint in mechanism.joints]
+        for name, at_m in (*hinges, *((loop.body_a, loop.point_a_m) for loop in mechanism.loops)):
+            touching[name].append((at_m, 0.0))
     return {
-        name: (
-            points(np.array([sphere.centre_m[[0, 2]] for sphere in spheres])),
-            np.array([sphere.radius_m for sphere in spheres]),
-        )
-        for name, spheres in touching.items()
+        name: (points(np.array([at[[0, 2]] for at, _ in found])), np.array([radius for _, radius in found]))
+        for name, found in touching.items()
+        if found
     }
 
 
@@ -77,20 +89,23 @@ class Energies:
 
 
 class Mechanics:
-    """Energies, centre of mass, loop gap and clearance of one robot under one gravity, from its state."""
+    """Energies, centre of mass, loops' gap and clearance of one robot under one gravity, from its state."""
 
-    def __init__(self, mechanism: Mechanism, gravity_m_s2: float) -> None:
-        bodies = [mechanism.bodies[name] for name in BODY_NAMES]
+    def __init__(self, mechanism: Multibody, gravity_m_s2: float) -> None:
+        order = mechanism.order
+        bodies = [mechanism.bodies[name] for name in order]
         self.mass_kg = np.array([body.mass_kg for body in bodies])
         self.total_mass_kg = float(self.mass_kg.sum())
         self.weight_n = self.total_mass_kg * gravity_m_s2
         self.inertia_kg_m2 = np.stack([body.inertia_kg_m2 for body in bodies])
         self.com_in_body_m = np.stack([body.com_m for body in bodies])
-        self.spring = mechanism.spring
-        loop = mechanism.loop
-        self._surface = surface(mechanism)
-        self._ends = BODY_NAMES.index(loop.body_a), BODY_NAMES.index(loop.body_b)
-        self._arms_m = np.stack([loop.point_a_m, loop.point_b_m]) - self.com_in_body_m[list(self._ends)]
+        self._springs = mechanism.springs
+        self._surface = [(order.index(name), *around) for name, around in surface(mechanism).items()]
+        self._loops = [
+            [(order.index(loop.body_a), loop.point_a_m - mechanism.bodies[loop.body_a].com_m),
+             (order.index(loop.body_b), loop.point_b_m - mechanism.bodies[loop.body_b].com_m)]
+            for loop in mechanism.loops
+        ]  # fmt: skip
         self._spheres = [
             (index, contact.centre_m - body.com_m, contact.radius_m)
             for index, body in enumerate(bodies)
@@ -114,15 +129,13 @@ class Mechanics:
         return Energies(
             0.5 * float(linear + angular),
             self.weight_n * height,
-            self.spring.stored_j(state.leg_rad),
+            math.fsum(map(Spring.stored_j, self._springs, state.spring_rad)),
         )
 
     def loop_gap_m(self, state: State) -> float:
-        """Return by how far the two sides of the loop have come apart."""
-        a, b = self._ends
-        here = state.com_m[a] + state.rotation[a] @ self._arms_m[0]
-        there = state.com_m[b] + state.rotation[b] @ self._arms_m[1]
-        return math.dist(here, there)
+        """Return by how far the two sides of a loop have come apart, at most."""
+        ends = ([state.com_m[at] + state.rotation[at] @ arm_m for at, arm_m in loop] for loop in self._loops)
+        return max((math.dist(*both) for both in ends), default=0.0)
 
     def clearance_m(self, state: State) -> float:
         """Return the distance of the lowest contact sphere from the ground."""
@@ -134,8 +147,7 @@ class Mechanics:
     def lowest_m(self, state: State) -> float:
         """Return the height of the lowest point of all parts, taken to lie in the leg's plane."""
         heights = []
-        for name, (at, radius_m) in self._surface.items():
-            index = BODY_NAMES.index(name)
+        for index, at, radius_m in self._surface:
             x, y, z = self.com_in_body_m[index]
             up = state.rotation[index, 2]
             heights.append(
@@ -144,7 +156,7 @@ class Mechanics:
         return float(min(heights))
 
     def frame_positions_m(self, state: State) -> Array:
-        """Return the origins (4, 3) of the bodies' frames."""
+        """Return the origins (b, 3) of the bodies' frames."""
         origins: Array = state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m)
         return origins
 

@@ -106,7 +106,7 @@ class PlanarWorld:
             _about_y(directions),
             np.column_stack([velocity.real, still, velocity.imag]),
             np.column_stack([still, speed.foot + np.array(links.turn1) * speed.leg, still]),
-            moment.leg_rad,
+            (moment.leg_rad,),
         )
 
 
@@ -133,7 +133,7 @@ class PlanarRun(Run):
         world = self.world
         assert isinstance(world, PlanarWorld)
         found = world.push_off()
-        gained = found.worst_gain_j / self.mechanism.spring.energy_j
+        gained = found.worst_gain_j / self.spring_energy_j
         self.worst_energy_ratio = max(self.worst_energy_ratio, 1.0 + gained)
         self.body_gap_m = found.belly_gap_m
         if self.settings.trajectory and found.steps:

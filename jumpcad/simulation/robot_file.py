@@ -32,10 +32,10 @@ from jumpcad.mechanism.model import (
     Joint,
     Loop,
     Mechanism,
+    Multibody,
     Spring,
     Stop,
 )
-from jumpcad.simulation.chain import Chain
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import Array
 
@@ -239,7 +239,7 @@ def is_robot_file(path: Path) -> bool:
 
 
 @check_arguments
-def load_robot(path: str | Path) -> Mechanism | Chain:
+def load_robot(path: str | Path) -> Multibody:
     """Return the robot of a file that gives its bodies: a URDF with its loop file, or a TOML file.
 
     Raises
@@ -287,13 +287,13 @@ def five_bar_robot(file: RobotFile) -> Mechanism:
     pin = file.pins.friction if file.pins else 0.0
     stop = file.stop
     return replace(
-        capsules, name=file.name, bodies=bodies, spring=spring, foot_depth_m=radius_m,
+        capsules, name=file.name, bodies=bodies, springs=(spring,), foot_depth_m=radius_m,
         stop=Stop("leg", math.radians(stop.angle_deg), _per_rad(stop.stiffness_nmm_per_deg)) if stop else None,
         friction=Friction(foot.friction, foot.body_friction, pin, (leg, front, ankle, eye)),
     )  # fmt: skip
 
 
-def _chain(file: RobotFile) -> Chain:
+def _chain(file: RobotFile) -> Multibody:
     foot = file.foot
     bodies = {}
     for name, body in file.bodies.items():
@@ -302,12 +302,13 @@ def _chain(file: RobotFile) -> Chain:
             for number, (x, z, radius) in enumerate(body.contacts_mm)
         )
         bodies[name] = body.body(name, contacts)
-    return Chain(
+    return Multibody(
         file.name,
         bodies,
         tuple(
             Joint(one.name, one.parent, one.child, _point(one.at_mm), math.radians(one.rest_deg),
-                  math.radians(low), math.radians(high), 0.0, JOINT_SPEED_RAD_S)
+                  math.radians(low), math.radians(high), 0.0, JOINT_SPEED_RAD_S, one.friction_nmm / 1000.0,
+                  one.range_deg is not None, None if one.loaded_deg is None else math.radians(one.loaded_deg))
             for one in file.joints
             for low, high in [one.range_deg or (-math.inf, math.inf)]
         ),
@@ -316,20 +317,18 @@ def _chain(file: RobotFile) -> Chain:
             Spring(one.joint, _per_rad(one.stiffness_nmm_per_deg), 0.0, math.radians(one.free_deg))
             for one in file.springs
         ),
-        {one.name: math.radians(one.loaded_deg) for one in file.joints if one.loaded_deg is not None},
-        {one.name: one.friction_nmm / 1000.0 for one in file.joints},
-        {"foot": foot.friction, "body": foot.body_friction},
+        friction=Friction(foot.friction, foot.body_friction),
     )  # fmt: skip
 
 
-def _require_plausible(file: RobotFile, robot: Mechanism | Chain) -> None:
+def _require_plausible(file: RobotFile, robot: Multibody) -> None:
     """Reject masses that do not add up, and masses, inertias and energies in a wrong unit."""
     total_g = 1000.0 * robot.mass_kg
     if file.mass_g is not None and abs(total_g / file.mass_g - 1.0) > ADDS_UP_SHARE:
         raise JumpcadError(f"mass_g = {file.mass_g:g}: the bodies have {total_g:.4g} g together: one of them is wrong")
     if not TOTAL_G[0] <= total_g <= TOTAL_G[1]:
         raise JumpcadError(f"the bodies have {total_g:.4g} g together: must be {TOTAL_G[0]:g}…{TOTAL_G[1]:g}; give g")
-    length_m = robot.design.l_max_mm / 1000.0 if isinstance(robot, Mechanism) else robot.length_m
+    length_m = robot.length_m
     for name, body in robot.bodies.items():
         gyration_m = math.sqrt(float(body.inertia_kg_m2[1, 1]) / body.mass_kg)
         if not GYRATION_SHARE[0] <= gyration_m / length_m <= GYRATION_SHARE[1]:
@@ -337,8 +336,7 @@ def _require_plausible(file: RobotFile, robot: Mechanism | Chain) -> None:
                 f"bodies.{name}: inertia and mass have a radius of gyration of {1000.0 * gyration_m:.3g} mm, and the "
                 f"longest link has {1000.0 * length_m:.3g} mm: give g·mm² about the body's own centre of mass"
             )
-    energy_j = robot.spring.energy_j if isinstance(robot, Mechanism) else robot.spring_energy_j
-    height_m = energy_j / robot.mass_kg / GRAVITY_M_S2
+    height_m = robot.spring_energy_j / robot.mass_kg / GRAVITY_M_S2
     if not HEIGHTS_M[0] <= height_m <= HEIGHTS_M[1]:
         raise JumpcadError(
             f"the springs' energy would lift the robot by {height_m:.3g} m: must be {HEIGHTS_M[0]:g}…{HEIGHTS_M[1]:g}: "

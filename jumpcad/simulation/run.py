@@ -5,17 +5,17 @@ An engine moves a `World`. Take-off, flight and audit are found here, in the sam
 
 import math
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
-from typing import Protocol
+from dataclasses import dataclass, field
+from typing import Any, Protocol
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.findings import Basis, Finding, at_most, higher, limit
-from jumpcad.mechanism.model import BODY_NAMES, Mechanism
+from jumpcad.mechanism.model import Mechanism, Multibody
 from jumpcad.settings import Settings, coefficients, takeoff_clearance_m
 from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
-from jumpcad.simulation.flight import Flight, flight
+from jumpcad.simulation.flight import Flight, flight, seen_flight
 from jumpcad.simulation.jump import EnergyBudget, Trajectory
 from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
 from jumpcad.transforms import Array
@@ -25,9 +25,13 @@ AIRBORNE_S = 0.004
 """Without normal force for this long, and rising: the robot has taken off."""
 TAKEOFF_WITHIN_S = 0.060
 """A robot on the ground this long after the springs have passed zero does not jump."""
+PUSH_OFF_WITHIN_S = 0.5
+"""A robot that is no five-bar and stands this long does not jump."""
 ENERGY_RATIO_LIMIT = 1.005
 """Mechanical energy over that at release; the run starts at 1, and only what an engine adds can raise it."""
 LOOP_GAP_LIMIT_M = 0.0005
+LOOK_EVERY_S = 0.0005
+"""Of the simulated flight of a robot that is no five-bar, whose steps are finer."""
 BASIS = {
     "audit_energy": Basis(
         f"1 + (energy - energy at release)/U ≤ {ENERGY_RATIO_LIMIT:g}, largest of kinetic, potential and springs' "
@@ -57,7 +61,8 @@ class World(Protocol):
     def advance(self, steps: int) -> float:
         """Advance by a number of time steps, the springs acting in each.
 
-        Return the coordinate of the leg joint before the last of them, which needs no extra work.
+        Return the coordinate of the leg joint before the last of them, which needs no extra work. Of a robot that is no
+        five-bar, it is minus the share of the springs' energy that is left.
         """
 
     def pull(self, acceleration_m_s2: Array) -> None:
@@ -75,7 +80,7 @@ class Engine(Protocol):
 
     run: "type[Run]"
 
-    def world(self, mechanism: Mechanism, settings: Settings) -> AbstractContextManager[World]:
+    def world(self, mechanism: Any, settings: Settings) -> AbstractContextManager[World]:
         """Put a robot on the ground, ready for release, and remove it afterwards."""
 
 
@@ -84,8 +89,9 @@ class Takeoff:
     """The moment after the last contact, and the flight that follows from it."""
 
     time_s: float
+    state: State = field(compare=False)
     ballistics: Ballistics
-    flight: Flight
+    flight: Flight | None
     energy: EnergyBudget
     energy_ratio: float
 
@@ -93,16 +99,18 @@ class Takeoff:
 class Run:
     """A run in progress; `go` carries it out, the other attributes hold its results."""
 
-    def __init__(self, world: World, mechanism: Mechanism, settings: Settings) -> None:
+    def __init__(self, world: World, mechanism: Multibody, settings: Settings) -> None:
         self.world, self.mechanism, self.settings = world, mechanism, settings
+        self.spring_energy_j = mechanism.spring_energy_j
+        self._five_bar = mechanism if isinstance(mechanism, Mechanism) else None
         self.mechanics = Mechanics(mechanism, settings.gravity_m_s2)
         self.clearance_m = takeoff_clearance_m(mechanism, settings)
         self.drag_per_m = drag_per_m(settings.drag_area_m2, mechanism.mass_kg)
         self.steps = 0
         self.takeoff: Takeoff | None = None
-        self.touchdown_distance_m: float | None = None
+        self.touchdown: dict[str, float] = {}
         self.start = world.state()
-        self.loaded = self.start if mechanism.roller_off is None else loaded_state(mechanism)
+        self.loaded = loaded_state(self._five_bar) if self._five_bar and mechanism.roller_off else self.start
         self.start_energy_j = self.mechanics.energies(self.start).total_j
         self.worst_energy_ratio = 0.0
         self.worst_gap_m = 0.0
@@ -118,10 +126,18 @@ class Run:
 
     def go(self) -> None:
         """Carry out the run as far as the settings ask."""
+        self.leave()
+        self.finish()
+
+    def leave(self) -> None:
+        """Carry out the run up to the take-off."""
         self._look(self.start, self.settings.trajectory)
         self.takeoff = self._push_off()
+
+    def finish(self) -> None:
+        """Carry out the flight, if the settings ask for it."""
         if self.takeoff and self.sound and self.settings.flight == "simulated":
-            self._fly()
+            self._fly(self.takeoff)
         self._look(self.world.state(), self.settings.trajectory)
 
     @property
@@ -169,11 +185,12 @@ class Run:
             return None
         energies = [self.mechanics.energies(state) for _, state in self._records]
         rotations = np.concatenate([state.rotation for _, state in self._records])
+        order = self.mechanism.order
         return Trajectory(
-            BODY_NAMES,
+            order,
             np.array([time for time, _ in self._records]),
             np.stack([self.mechanics.frame_positions_m(state) for _, state in self._records]),
-            Rotation.from_matrix(rotations).as_quat().reshape(-1, len(BODY_NAMES), 4),
+            Rotation.from_matrix(rotations).as_quat().reshape(-1, len(order), 4),
             np.array([energy.kinetic_j for energy in energies]),
             np.array([energy.potential_j for energy in energies]),
             np.array([energy.spring_j for energy in energies]),
@@ -188,9 +205,9 @@ class Run:
         creep open against dry friction.
         """
         world, settings = self.world, self.settings
-        half_wound = -self.mechanism.spring.wind_rad / 2
+        half_wound = -self._five_bar.spring.wind_rad / 2 if self._five_bar else -0.5
         hold = max(1, round(AIRBORNE_S / settings.dt_s))
-        deadline = settings.max_time_s
+        deadline = settings.max_time_s if self._five_bar else min(settings.max_time_s, PUSH_OFF_WITHIN_S)
         leg_rad = -math.inf
         airborne, rose = 0, False
         left = 0.0, self.start, 0.0, 0.0
@@ -225,18 +242,24 @@ class Run:
     def _rises(self, state: State) -> bool:
         return float(self.mechanics.velocity_m_s(state)[2]) > 0.0
 
-    def _fly(self) -> None:
-        """Advance to the first touch of any part."""
+    def _fly(self, takeoff: Takeoff) -> None:
+        """Advance to the first touch of any part; a five-bar is looked at in each step."""
         mechanics, off = self.mechanics, False
+        every = 1 if self._five_bar else max(1, round(LOOK_EVERY_S / self.settings.dt_s))
+        states = [takeoff.state]
         while self.time_s < self.settings.max_time_s and self.sound:
             if self.drag_per_m:
                 self._brake()
-            self._advance(1)
+            self._advance(every)
             state = self.world.state()
+            states.append(state)
             above = mechanics.lowest_m(state) > 0.0
             if self.world.loaded() or (off and not above):
                 here, start = (mechanics.centre_of_mass_m(one)[0] for one in (state, self.loaded))
-                self.touchdown_distance_m = float(here - start)
+                self.touchdown = {"touchdown_distance_m": float(here - start)}
+                if not self._five_bar:
+                    air_s = self.time_s - takeoff.time_s
+                    self.touchdown = vars(seen_flight(self.mechanism, mechanics, self.loaded, states, air_s))
                 return
             off = off or above
 
@@ -267,7 +290,7 @@ class Run:
         """
         with np.errstate(over="ignore", invalid="ignore"):
             gained_j = self.mechanics.energies(state).total_j - self.start_energy_j
-            ratio, gap_m = 1.0 + gained_j / self.mechanism.spring.energy_j, self.mechanics.loop_gap_m(state)
+            ratio, gap_m = 1.0 + gained_j / self.spring_energy_j, self.mechanics.loop_gap_m(state)
         finite = math.isfinite(ratio) and math.isfinite(gap_m)
         self.worst_energy_ratio = max(self.worst_energy_ratio, ratio if finite else math.inf)
         self.worst_gap_m = max(self.worst_gap_m, gap_m if finite else math.inf)
@@ -281,7 +304,7 @@ class Run:
         start, here = mechanics.centre_of_mass_m(self.loaded), mechanics.centre_of_mass_m(state)
         velocity = mechanics.velocity_m_s(state)
         forward, upward = 0.5 * mass * float(velocity[0]) ** 2, 0.5 * mass * float(velocity[2]) ** 2
-        wound, loaded_j = self.mechanism.spring.energy_j, mechanics.energies(self.loaded).total_j
+        wound, loaded_j = self.spring_energy_j, mechanics.energies(self.loaded).total_j
         left, release_j = energies.total_j - loaded_j + wound, loaded_j - self.start_energy_j
         budget = EnergyBudget(
             forward_j=forward,
@@ -294,8 +317,10 @@ class Run:
             slip_j=slip_j,
             contact_j=wound - left - release_j - joint_damping_j - slip_j,
         )
-        reach = 2.0 * self.mechanism.design.l_max_mm / 1000.0  # farther than any contact is from the centre
+        reach = 2.0 * self.mechanism.length_m  # farther than any contact is from the centre
         path = ballistics(start, here, velocity, self.settings.gravity_m_s2, self.drag_per_m, reach)
-        damping = coefficients(self.mechanism, self.settings).joint_damping_nms_per_rad
-        flown = flight(self.mechanism, mechanics, self.loaded, state, path, damping)
-        return Takeoff(time_s, path, flown, budget, left / wound)
+        flown = None
+        if self._five_bar:
+            damping = coefficients(self.mechanism, self.settings).joint_damping_nms_per_rad
+            flown = flight(self._five_bar, mechanics, self.loaded, state, path, damping)
+        return Takeoff(time_s, state, path, flown, budget, left / wound)

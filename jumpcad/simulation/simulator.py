@@ -1,30 +1,36 @@
 """One simulated jump: the feasibility tests, then a run in an engine, then its verdict."""
 
 from jumpcad.arguments import check_arguments
+from jumpcad.errors import JumpcadError
+from jumpcad.exporters.mjcf import SUBSTEPS
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
-from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.model import Mechanism, Multibody
 from jumpcad.mechanism.reflected import reflected_mass
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
-from jumpcad.simulation.chain import Chain, simulate_chain
 from jumpcad.simulation.engines import BUNDLE_ENGINE, default_engine, engine_named
 from jumpcad.simulation.jump import Jump
+from jumpcad.simulation.mujoco import MujocoWorld
 from jumpcad.simulation.run import Run
 
 LEAST_STEP_S = 1e-6
 """Least time step that settings may have."""
+SETTLED_SHARE, FINEST_S = 0.002, 5e-7
+"""Of a chain: change of the take-off speed below which a step is fine enough; the finest step."""
+FLIGHT_STEP_S, FLIGHT_STRIDE = 5e-5, 8
+"""Step of a chain's flight, and at most how many of its push-off's: nothing hits the ground in it."""
 
 
 @check_arguments
-def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, engine: str | None = None) -> Jump:
+def simulate(mechanism: Multibody, settings: Settings | None = None, engine: str | None = None) -> Jump:
     """Let a robot jump.
 
     Parameters
     ----------
     mechanism
-        Its bodies, joints, loop and spring are simulated. A chain of hinges is MuJoCo's alone.
+        Its bodies, joints, loops and springs are simulated. A chain of hinges that is no five-bar is MuJoCo's alone.
     settings
         Time step, friction and so on; what they leave open follows the robot, as all does if None. With a
         `spring_efficiency` other than 1 the springs have that much of their energy, and the jump's `spring_energy_j`
@@ -46,11 +52,14 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
         invalid values.
     """
     settings = (settings or Settings()).revalidated()
-    if isinstance(mechanism, Chain):
-        return simulate_chain(mechanism, settings, "mujoco" if engine is None else engine)
-    engine = default_engine() if engine is None else engine
     mechanism = with_spring_factor(mechanism, settings.spring_efficiency)
-    maker = engine_named(engine)
+    if not isinstance(mechanism, Mechanism):
+        if engine not in (None, "mujoco"):
+            raise JumpcadError(f"--engine {engine}: {mechanism.name} is a chain of hinges, which only MuJoCo simulates")
+        finer = settings.model_copy(update={"dt_s": settings.dt_s / SUBSTEPS})
+        return _run(mechanism, finer, "mujoco", ())
+    engine = default_engine() if engine is None else engine
+    engine_named(engine)
     findings = geometry_findings(mechanism.design)
     if not errors(findings):
         findings += statics_findings(mechanism, settings.gravity_m_s2)
@@ -58,11 +67,34 @@ def simulate(mechanism: Mechanism | Chain, settings: Settings | None = None, eng
     if refused:
         first = refused[-1 if mechanism.roller_off else 0].name  # of printed robots `too_weak` comes before `tips`
         return Jump(first, engine, mechanism.mass_kg, mechanism.spring.energy_j, findings=tuple(findings))
-    settings = divided(mechanism, settings)
+    return _run(mechanism, divided(mechanism, settings), engine, tuple(findings))
+
+
+def _run(
+    mechanism: Multibody, settings: Settings, engine: str, findings: tuple[Finding, ...], coarse: Run | None = None
+) -> Jump:
+    """Return a jump; that of a chain at a time step that is quartered until its take-off no longer depends on it."""
+    maker = engine_named(engine)
     with maker.world(mechanism, settings) as world:
         run = maker.run(world, mechanism, settings)
-        run.go()
-        return _jump(run, engine, tuple(findings))
+        if isinstance(mechanism, Mechanism):
+            run.go()
+            return _jump(run, engine, findings)
+        run.leave()
+        if settings.dt_s > FINEST_S and not (coarse and _alike(coarse, run)):
+            return _run(mechanism, settings.model_copy(update={"dt_s": settings.dt_s / 4.0}), engine, findings, run)
+        assert isinstance(world, MujocoWorld)
+        world.stride = min(max(1, round(FLIGHT_STEP_S / settings.dt_s)), FLIGHT_STRIDE)
+        run.finish()
+        return _jump(run, engine, findings)
+
+
+def _alike(one: Run, other: Run) -> bool:
+    """Tell whether two runs end alike: taking off as fast, or not at all and for the same reason."""
+    if one.sound != other.sound or not (one.takeoff and other.takeoff):
+        return one.sound == other.sound and one.takeoff is other.takeoff
+    speeds = [run.ballistics.speed_m_s for run in (one.takeoff, other.takeoff)]
+    return abs(speeds[1] / speeds[0] - 1.0) < SETTLED_SHARE
 
 
 def headline(mechanism: Mechanism, trajectory: bool = False) -> Jump:
@@ -96,29 +128,27 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
             refused[0].name,
             engine,
             mechanism.mass_kg,
-            mechanism.spring.energy_j,
+            run.spring_energy_j,
             trajectory=run.trajectory(),
             findings=findings if failed else (*findings, *refused),
         )
     path, offset_m = takeoff.ballistics, float(run.mechanics.centre_of_mass_m(run.loaded)[1])
-    flown = vars(takeoff.flight)
-    if run.touchdown_distance_m is not None:
-        flown = flown | {"touchdown_distance_m": run.touchdown_distance_m}
+    flown = (vars(takeoff.flight) if takeoff.flight else {}) | run.touchdown
     return Jump(
         "jump",
         engine,
         mechanism.mass_kg,
-        mechanism.spring.energy_j,
-        fitness=path.range_m / (mechanism.design.l_max_mm / 1000.0),
+        run.spring_energy_j,
+        fitness=path.range_m / mechanism.length_m,
         ballistic_range_m=path.range_m,
         com_rise_m=path.rise_m,
-        release_energy_ratio=1.0 - takeoff.energy.release_j / mechanism.spring.energy_j,
+        release_energy_ratio=1.0 - takeoff.energy.release_j / run.spring_energy_j,
         takeoff_energy_ratio=takeoff.energy_ratio,
         takeoff_speed_m_s=path.speed_m_s,
         takeoff_angle_deg=path.angle_deg,
         takeoff_time_s=takeoff.time_s,
         **flown,
-        touchdown_gap_m=path.range_m - flown["touchdown_distance_m"],
+        touchdown_gap_m=path.range_m - flown["touchdown_distance_m"] if flown else None,
         lateral_offset_mm=1000.0 * offset_m,
         energy=takeoff.energy,
         trajectory=run.trajectory(),

@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 import jumpcad.search.optimization  # noqa: F401  # before its pool is replaced
 from jumpcad.cli.commands import app
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, limits_of, load_design
+from jumpcad.search.models import robot_model
 from jumpcad.search.study import run as study
 
 JUMPCAD = [sys.executable, "-m", "jumpcad"]
@@ -54,6 +55,14 @@ def test_what_optimize_finds_jumps_like_that(folder):
     found = data("optimize", "bo", *QUICK, "--evaluations", 16, "-o", "best.toml")
     jump = data("simulate", "best.toml", "--capsule", "--settings", "screening")
     assert json.dumps(found["winner"]["score"]) in json.dumps(jump)
+
+
+@pytest.mark.thorough
+def test_what_a_search_began_with_has_the_figures_of_the_robot_alone(folder):
+    """None that a search adds to learn from."""
+    near = ("--around", "best-printable", "--only", "c_coef", "--within", 1)
+    found = data("optimize", "bo", *near, "--evaluations", 1, "--workers", 0)
+    assert found["began_with"].keys() == robot_model()(load_design("best-printable")).metrics.keys()
 
 
 @pytest.mark.thorough

@@ -115,7 +115,7 @@ def test_springs_push_by_hooke_from_where_they_are_relaxed(one_sided: bool) -> N
     mujoco, robot = needs.package("mujoco"), capsule_robot(load_design("kenan-2.0"))
     for preload_rad in (0.0, 0.1):
         spring = replace(robot.spring, one_sided=one_sided, preload_rad=preload_rad)
-        model = mujoco.MjModel.from_xml_string(write_mjcf(replace(robot, spring=spring)))
+        model = mujoco.MjModel.from_xml_string(write_mjcf(replace(robot, springs=(spring,))))
         data, at = mujoco.MjData(model), model.joint("leg")
         for angle in (-0.8, -0.1, 0.0, 0.06, 0.2, 1.0):
             mujoco.mj_resetData(model, data)

@@ -159,7 +159,7 @@ def test_the_motor_holds_by_a_quarter_more_than_the_springs_push(kenan: Robot, t
     """Against their opening, which is positive: the control is negative."""
     spring = replace(kenan.spring, stiffness_nm_per_rad=times * kenan.spring.stiffness_nm_per_rad)
     (held,) = re.findall(
-        r"Its control (\S+) N·m holds the loaded leg, 0 releases it", readme(replace(kenan, spring=spring))
+        r"Its control (\S+) N·m holds the loaded leg, 0 releases it", readme(replace(kenan, springs=(spring,)))
     )
     assert float(held) == pytest.approx(-1.25 * times * kenan.spring.peak_torque_nm, rel=5e-3)
     assert HOLD == 1.25

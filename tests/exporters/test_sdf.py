@@ -46,7 +46,7 @@ def test_the_spring_holds_the_designs_energy(mechanism: Mechanism) -> None:
 def test_a_preload_pushes_the_leg_on_at_rest(mechanism: Mechanism) -> None:
     """SDF's torque is stiffness times (reference - angle); loading lowers the angle, 5 degrees are left at rest."""
     preload = math.radians(5.0)
-    text = write_sdf(replace(mechanism, spring=replace(mechanism.spring, preload_rad=preload)))
+    text = write_sdf(replace(mechanism, springs=(replace(mechanism.spring, preload_rad=preload),)))
     (leg,) = (joint for joint in ET.fromstring(text).iter("joint") if joint.get("name") == "leg")
     stiffness, rest = (number(leg, f"axis/dynamics/spring_{key}") for key in ("stiffness", "reference"))
     assert stiffness * (rest - 0.0) == pytest.approx(mechanism.design.stiffness_nm_per_rad * preload)

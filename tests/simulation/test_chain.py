@@ -10,13 +10,12 @@ from support import needs
 from support.places import ROOT
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.model import Body, ContactSphere, Joint, Loop, Mechanism, Spring, Surface
+from jumpcad.mechanism.model import Body, ContactSphere, Friction, Joint, Loop, Mechanism, Multibody, Spring, Surface
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.chain import Chain
 from jumpcad.simulation.robot_file import load_robot
 
 G = 9.81
-FRICTION = {"foot": 2.0, "body": 0.5}
+FRICTION = Friction(2.0, 0.5)
 pytestmark = pytest.mark.usefixtures("mujoco_there")
 
 
@@ -31,9 +30,9 @@ def body(name: str, mass: float, com_x: float, inertia: float, feet: tuple[float
     return Body(name, mass, np.array([com_x, 0.0, 0.0]), inertia * np.eye(3), contacts)
 
 
-def hinge(name: str, parent: str, child: str, x: float, rest_deg: float) -> Joint:
-    rest = math.radians(rest_deg)
-    return Joint(name, parent, child, np.array([x, 0.0, 0.0]), rest, -math.inf, math.inf, 0.0, 1.0)
+def hinge(name: str, parent: str, child: str, x: float, rest_deg: float, loaded_deg: float | None = None) -> Joint:
+    rest, loaded = math.radians(rest_deg), None if loaded_deg is None else math.radians(loaded_deg)
+    return Joint(name, parent, child, np.array([x, 0.0, 0.0]), rest, -math.inf, math.inf, 0.0, 1.0, loaded_rad=loaded)
 
 
 def test_one_link_jumper_is_its_closed_form() -> None:
@@ -52,10 +51,10 @@ def test_one_link_jumper_is_its_closed_form() -> None:
 
     leaves = brentq(force, 0.0, wind)
     rod = body("rod", mass, radius, inertia)
-    chain = Chain(
+    chain = Multibody(
         "one", {"foot": body("foot", foot, 0.0, 1.0, (-0.3, 0.3)), "rod": rod},
-        (hinge("pin", "foot", "rod", 0.0, -90.0),), (), (Spring("pin", stiffness, 0.0),),
-        {"pin": -wind}, {}, FRICTION | {"foot": 50.0},
+        (hinge("pin", "foot", "rod", 0.0, -90.0, -math.degrees(wind)),), (), (Spring("pin", stiffness, 0.0),),
+        friction=Friction(50.0, 0.5),
     )  # fmt: skip
     jump = simulate(chain, engine="mujoco")
     speed = mass * radius * math.sqrt(rate2(leaves)) / (foot + mass)
@@ -63,22 +62,21 @@ def test_one_link_jumper_is_its_closed_form() -> None:
     assert jump.takeoff_angle_deg == pytest.approx(math.degrees(leaves), abs=0.3)
 
 
-def two_link(link_kg: float, carried: float = 0.02, foot: float = 0.002, stiffness: float = 0.03) -> Chain:
+def two_link(link_kg: float, carried: float = 0.02, foot: float = 0.002, stiffness: float = 0.03) -> Multibody:
     """A body on two legs of two links each, loaded from 75° to 20° above the ground; its springs relax at 80°."""
     links = {name: body(name, link_kg, 0.02, link_kg * 1e-4) for name in ("a1", "a2", "b1", "b2")}
-    return Chain(
+    return Multibody(
         "two",
         {"foot": body("foot", foot, 0.0, 1e-6, (-0.02, 0.02)), **links,
          "body": body("body", carried, 0.0, 3e-6, (0.0,))},
         (
-            hinge("a", "foot", "a1", 0.0, -105.0), hinge("a knee", "a1", "a2", 0.04, 30.0),
-            hinge("hip", "a2", "body", 0.04, 75.0), hinge("b", "foot", "b1", 0.0, -75.0),
-            hinge("b knee", "b1", "b2", 0.04, -30.0),
+            hinge("a", "foot", "a1", 0.0, -105.0, -55.0), hinge("a knee", "a1", "a2", 0.04, 30.0, 110.0),
+            hinge("hip", "a2", "body", 0.04, 75.0), hinge("b", "foot", "b1", 0.0, -75.0, 55.0),
+            hinge("b knee", "b1", "b2", 0.04, -30.0, -110.0),
         ),
         (Loop("b2", np.array([0.04, 0.0, 0.0]), "body", np.zeros(3)),),
         tuple(Spring(f"{side} knee", stiffness, 0.0, math.radians(free)) for side, free in (("a", -10), ("b", 10))),
-        {name: math.radians(deg) for name, deg in (("a", -55), ("a knee", 110), ("b", 55), ("b knee", -110))},
-        {}, FRICTION,
+        friction=FRICTION,
     )  # fmt: skip
 
 
@@ -111,14 +109,18 @@ def test_energy_is_kept_where_nothing_rubs() -> None:
 def test_a_five_bar_as_a_chain_jumps_like_the_five_bar_in_another_engine() -> None:
     robot = load_robot(ROOT / "examples" / "light_jumper.toml")
     assert isinstance(robot, Mechanism)
-    springs = (Spring("leg", robot.spring.stiffness_nm_per_rad, 0.0),)
-    joints = tuple(replace(joint, lower_rad=-math.inf) for joint in robot.joints)
-    wound, rubs = {"leg": -robot.spring.wind_rad}, {"foot": 0.9, "body": 0.5}
-    chain = Chain("five-bar", robot.bodies, joints, (robot.loop,), springs, wound, {}, rubs)
-    jump, other = simulate(chain, engine="mujoco"), simulate(robot, engine="planar")
+    wound = {"leg": -robot.spring.wind_rad}
+    joints = tuple(replace(joint, loaded_rad=wound.get(joint.name)) for joint in robot.joints)
+    chain = Multibody("five-bar", robot.bodies, joints, robot.loops, robot.springs, friction=robot.friction)
+    jump, other = simulate(chain, Settings(flight="simulated")), simulate(robot, engine="planar")
     assert jump.takeoff_speed_m_s == pytest.approx(other.takeoff_speed_m_s, rel=0.001)
     assert jump.com_rise_m == pytest.approx(other.com_rise_m, rel=0.002)
     assert jump.takeoff_time_s == pytest.approx(other.takeoff_time_s, abs=2e-4)
+    assert jump.touchdown_distance_m == pytest.approx(other.touchdown_distance_m, rel=0.003)
+    assert jump.turn_deg == pytest.approx(other.turn_deg, rel=0.02)  # nearly five times around
+    left = [one.touchdown_pitch_deg - one.turn_deg for one in (jump, other)]  # pitch at take-off, and whole turns
+    assert math.remainder(left[0] - left[1], 360.0) == pytest.approx(0.0, abs=1.0)
+    assert jump.clears_bar_mm == pytest.approx(other.clears_bar_mm, rel=0.002)
 
 
 def test_a_dyad_of_no_mass_makes_a_six_bar_that_jumps_alike() -> None:
@@ -144,10 +146,8 @@ def test_a_chain_takes_settings_or_refuses_them() -> None:
     """Half the springs' energy; what is not simulated is not left out silently."""
     half = simulate(two_link(1e-3), Settings(spring_efficiency=0.5), "mujoco")
     assert half.spring_energy_j == pytest.approx(0.5 * two_link(1e-3).spring_energy_j)
-    for changed in ({"pin_friction": 0.3}, {"flight": "simulated"}, {"joint_friction_nm": 0.1}):
-        (key,) = changed
-        with pytest.raises(JumpcadError, match=f"{key} = .*: a chain of hinges is simulated without it"):
-            simulate(two_link(1e-4), Settings(**changed), "mujoco")
+    with pytest.raises(JumpcadError, match=r"pin_friction = 0.3: a chain of hinges is simulated without it"):
+        simulate(two_link(1e-4), Settings(pin_friction=0.3), "mujoco")
 
 
 def test_a_weak_chain_stays_on_the_ground() -> None:

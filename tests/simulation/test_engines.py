@@ -108,7 +108,7 @@ def test_froude_similarity(kenan: Robot, engine: str) -> None:
         for name, body in kenan.bodies.items()
     }
     stiffness = kenan.spring.stiffness_nm_per_rad * scale**4
-    large = replace(large, bodies=bodies, spring=replace(large.spring, stiffness_nm_per_rad=stiffness))
+    large = replace(large, bodies=bodies, springs=(replace(large.spring, stiffness_nm_per_rad=stiffness),))
     small_jump, large_jump = (
         simulate(robot, Settings(dt_s=dt, solver_iterations=200, joint_damping_nms_per_rad=0.0), engine)
         for robot, dt in ((kenan, 1 / 8000), (large, 2 / 8000))

@@ -149,7 +149,7 @@ def test_pipes_and_devices_do_not_block(tmp_path: Path) -> None:
 def test_springs_are_read_as_they_were_written(read: Callable[..., Robot]) -> None:
     """Loaded already at rest, or with arms that only push."""
     for more in ({"preload_rad": 0.2}, {"one_sided": True}):
-        robot = replace(KENAN, spring=replace(KENAN.spring, **more))
+        robot = replace(KENAN, springs=(replace(KENAN.spring, **more),))
         found = read(loop=write_loop(robot)).spring
         assert (found.preload_rad, found.one_sided) == (robot.spring.preload_rad, robot.spring.one_sided)
         assert found.energy_j == pytest.approx(robot.spring.energy_j, rel=1e-9)

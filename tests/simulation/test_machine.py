@@ -159,7 +159,7 @@ def test_preload_at_the_same_energy_jumps_as_far(kenan: Mechanism, engine: str) 
     preload, wind = math.radians(3.0), kenan.spring.wind_rad
     softer = kenan.spring.stiffness_nm_per_rad * wind / (wind + 2.0 * preload)
     spring = replace(kenan.spring, stiffness_nm_per_rad=softer, preload_rad=preload, one_sided=True)
-    robot = replace(kenan, spring=spring)
+    robot = replace(kenan, springs=(spring,))
     assert spring.energy_j == pytest.approx(kenan.spring.energy_j)
     assert simulate(robot, FINE, engine).ballistic_range_m == pytest.approx(
         simulate(kenan, FINE, engine).ballistic_range_m, rel=0.03

@@ -65,7 +65,7 @@ def test_energy_of_a_known_motion(lopsided: Robot) -> None:
     rotation = Rotation.random(4, rng=rng).as_matrix()
     com = rng.normal(size=(4, 3))
     spin, drift = np.array([1.0, -2.0, 3.0]), np.array([0.4, 0.5, -0.6])
-    state = State(com, rotation, drift + np.cross(spin, com), np.tile(spin, (4, 1)), -0.2)
+    state = State(com, rotation, drift + np.cross(spin, com), np.tile(spin, (4, 1)), (-0.2,))
     total = 0.0
     for name, turn, place in zip(BODY_NAMES, rotation, com, strict=True):
         body = lopsided.bodies[name]

@@ -80,7 +80,7 @@ def test_slipping(kenan: Robot, friction: float) -> None:
 
 def test_a_hop_with_wound_springs_is_no_takeoff(kenan: Robot) -> None:
     """Thrown up by 0.3 mm with springs too weak for a jump: in the air for more than 4 ms, rising, and down again."""
-    weak = replace(kenan, spring=replace(kenan.spring, stiffness_nm_per_rad=0.02))
+    weak = replace(kenan, springs=(replace(kenan.spring, stiffness_nm_per_rad=0.02),))
     world = PlanarWorld(weak, FINE)
     world.go_to(world.moment._replace(speed=PlanarMotion(0.08j, 0.0, 0.0)))
     thrown = world.moment

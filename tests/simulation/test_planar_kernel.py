@@ -216,7 +216,7 @@ def test_dry_friction_of_a_joint_acts_by_its_rate(either: Robot, leg_rad: float)
 @pytest.mark.parametrize("preload_rad", [0.0, 0.1])
 def test_springs_push_by_hooke_from_where_they_are_relaxed(kenan: Robot, preload_rad: float) -> None:
     """Torque k·(preload - angle), energy half of that times the angle; one that only pushes has none beyond."""
-    pulling = replace(kenan, spring=replace(kenan.spring, preload_rad=preload_rad))
+    pulling = replace(kenan, springs=(replace(kenan.spring, preload_rad=preload_rad),))
     pushing, stiffness = one_sided(kenan, preload_rad), kenan.spring.stiffness_nm_per_rad
     for robot, pulls in ((pulling, True), (pushing, False)):
         model = model_of(robot)

@@ -25,7 +25,7 @@ def test_friction_is_the_grounds_times_the_foots(kenan: Robot) -> None:
 def test_a_preload_gives_the_energy_of_its_winding(kenan: Robot, preload_rad: float) -> None:
     """½·k·((w + p)² - p²), as in Bullet, whose jump is as far."""
     needs.package("pybullet")
-    robot = replace(kenan, spring=replace(kenan.spring, preload_rad=preload_rad))
+    robot = replace(kenan, springs=(replace(kenan.spring, preload_rad=preload_rad),))
     jumps = [simulate(robot, engine=engine) for engine in ("planar", "pybullet")]
     wound = kenan.spring.wind_rad + preload_rad
     energy = 0.5 * kenan.spring.stiffness_nm_per_rad * (wound**2 - preload_rad**2)

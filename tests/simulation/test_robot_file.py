@@ -9,15 +9,14 @@ from support.places import ROOT
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.model import Multibody
 from jumpcad.simulation import Settings, simulate
-from jumpcad.simulation.chain import Chain
 from jumpcad.simulation.robot_file import load_robot
 
 EXAMPLES = {name: (ROOT / "examples" / f"{name}.toml").read_text() for name in ("light_jumper", "chain_jumper")}
 
 
-def read(folder: Path, text: str) -> Mechanism | Chain:
+def read(folder: Path, text: str) -> Multibody:
     path = folder / "robot.toml"
     path.write_text(text)
     return load_robot(path)

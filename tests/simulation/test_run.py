@@ -64,7 +64,7 @@ class Scripted:
         velocity[:, 2] = self.speed_m_s
         com = self.start.com_m.copy()
         com[:, 2] += 0.0 if self.loaded() else self.hop_m
-        return replace(self.start, com_m=com, velocity_m_s=velocity, leg_rad=0.0)
+        return replace(self.start, com_m=com, velocity_m_s=velocity, spring_rad=(0.0,))
 
 
 @contextmanager

@@ -13,7 +13,7 @@ PINS_M = (0.0015,) * 4
 
 def one_sided(robot: Mechanism, preload_rad: float = 0.0) -> Mechanism:
     """Return a robot whose springs only push."""
-    return replace(robot, spring=replace(robot.spring, one_sided=True, preload_rad=preload_rad))
+    return replace(robot, springs=(replace(robot.spring, one_sided=True, preload_rad=preload_rad),))
 
 
 def stopped(robot: Mechanism, angle_rad: float = STOP_RAD, stiffness: float = PAD_NM_PER_RAD) -> Mechanism:

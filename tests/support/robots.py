@@ -88,6 +88,6 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     workshop = load_workshop()
     whole_robot = build(design, workshop, name="")
     return Robot(
-        name, design, bodies, capsules.joints, capsules.loop, capsules.spring, capsules.foot_depth_m,
+        name, bodies, capsules.joints, capsules.loops, capsules.springs, design, capsules.foot_depth_m,
         parts, hardware, workshop, whole_robot.layout, whole_robot.release, whole_robot.stop_blow,
     )  # fmt: skip

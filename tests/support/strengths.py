@@ -64,7 +64,7 @@ def helped(robot: Robot, find: Callable[[Robot], Iterable[Finding]]) -> set[str]
     for name, factor in {(name, factor) for _, name, factor in advised}:
         design = robot.design.model_copy(update={name: factor * getattr(robot.design, name)})
         layout = replace(robot.layout, linkage=Linkage(design), toe_half_width_mm=float(toe_tip_mm(design)[1]))
-        other = find(replace(robot, design=design, spring=springs_on_leg(design), layout=layout))
+        other = find(replace(robot, design=design, springs=(springs_on_leg(design),), layout=layout))
         for before, after in zip(usual, other, strict=True):
             if (before.name, name, factor) in advised:
                 assert after.margin > before.margin - 1e-9, (before.name, name)

@@ -4,7 +4,8 @@ The pin goes in last, when both plates hold the pin that the springs' other arms
 leg's pin moves from its rest pose to the stop, so that it is free in both.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,12 +24,13 @@ from jumpcad.transforms import Array, direction
 class PinHole:
     """Where the left plate has its hole: the pin's places (2,) in the rest pose and with the leg at its stop.
 
-    `diameter_mm` is the width of the hole, which the pin's head or clip passes.
+    `diameter_mm` is the width of the hole, which the pin's head or clip passes; `room_mm` is what it has left.
     """
 
     rest_mm: Array
     stop_mm: Array
     diameter_mm: float
+    room_mm: float = math.inf
 
     @property
     def places_mm(self) -> Array:
@@ -68,7 +70,7 @@ def pin_hole(
     rest, at_stop = (
         np.round(hub + radius_mm * direction(angle), 6) for angle in (linkage.rest_rad, stop.direction_rad)
     )
-    found = PinHole(rest, at_stop, diameter_mm)
+    found, rooms = PinHole(rest, at_stop, diameter_mm), []
     bores = [
         disc(f"bore of the {name} axle", place, axle_mm / 2.0 + CLEAR_MM, plate)
         for name, place in (("leg", hub), ("front", linkage.front_pivot_mm))
@@ -88,4 +90,5 @@ def pin_hole(
                 "pin_way", room,
                 ways=higher("d_coef") + lower("stiffness_nmm_per_deg", note="a smaller spring"),
             )  # fmt: skip
-    return found
+        rooms.append(room)
+    return replace(found, room_mm=min(rooms))

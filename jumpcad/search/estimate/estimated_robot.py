@@ -69,7 +69,7 @@ def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -
     return replace(
         plain,
         bodies=bodies,
-        spring=spring,
+        springs=(spring,),
         foot_depth_m=figures["foot_depth_m"],
         stop=Stop(spring.joint, figures["stop_rad"], figures["stop_nm_per_rad"]),
         roller_off=release,

@@ -19,10 +19,11 @@ def layout_findings(error: CannotBuildError) -> tuple[Finding, ...]:
 
 def room_findings(layout: Layout, reserve_mm: float) -> tuple[Finding, ...]:
     """Return what a robot has left, above a reserve, of the room for which most designs are refused."""
-    gap, room = legs_apart_mm(layout.linkage, layout.sections), layout.stop.room_mm
+    gap, room, way = legs_apart_mm(layout.linkage, layout.sections), layout.stop.room_mm, layout.pin_hole.room_mm
     needed = GAP_MM + reserve_mm
     apart = f"main leg and front link are {gap:.2f} mm apart, of {needed:g} mm at least"
     return (
         limit("legs_apart", gap - GAP_MM - reserve_mm, "mm", apart, ""),
         limit("stop_room", room, "mm", f"the rest stop has {room:.2f} mm of room, of 0 mm at least", ""),
+        limit("pin_way", way, "mm", f"the leg's pin has {way:.2f} mm of room on its way, of 0 mm at least", ""),
     )

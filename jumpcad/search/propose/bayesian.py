@@ -13,7 +13,6 @@ import numpy as np
 
 from jumpcad.plural import counted
 from jumpcad.process.blas_threads import one_thread
-from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
@@ -85,10 +84,8 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
             proposals.append(proposal)
         return proposals
 
-    estimated = isinstance(evaluator.model, PrintedModel) and not evaluator.space.varies_workshop
-
     def ended() -> bool:  # scores that are all alike have not converged
-        enough = idle() >= (IDLE if estimated else IDLE_ALONE)
+        enough = idle() >= (IDLE if evaluator.request.estimated else IDLE_ALONE)
         return stage.least_gain > 0.0 and enough and not is_flat(evaluator.trials)
 
     return run_steps(evaluator, "bo", stage, proposer, ended)

@@ -24,7 +24,7 @@ from jumpcad.transforms import Array
 TRIED = "tried"
 """What the note of a trial calls the points of the dry runs of its step."""
 FIRST = 32
-"""Designs that are estimated first: the best by the capsule robot."""
+"""Designs that are estimated first: the best by the quick robot."""
 ESTIMATED, FAILED = 160, 160
 """Most estimates that are learned from besides those of trials, and most failures: the last ones. Estimates are made
 anew with every fit, and the time of a step grows with both."""
@@ -59,7 +59,7 @@ class DryRun:
 
     @cached_property
     def ranked(self) -> list[Array]:
-        """Points (d,) with which the capsule robot jumps, the farthest first."""
+        """Points (d,) with which the quick robot jumps, the best first."""
         return ranked_points(self._evaluator, np.random.default_rng([self._seed, 5]))
 
     def starts_with(self, variant: Variant) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 
 from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
+from jumpcad.search.propose.initial_designs import bred
 from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.study.trial import Trial, best_trial
@@ -35,6 +36,8 @@ STEP = 0.02
 """Distance of a neighbour, in scales of the space; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
+PARENTS = 16
+"""Points with the best estimates of which others are bred; judgement."""
 WITHIN = 0.005
 """Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by."""
 
@@ -125,6 +128,8 @@ class ProposalLoop:
             return None
         assert self._dry_run is not None
         points = neighbours(self._space, best, generator, wider)
+        if wider == 1.0:
+            points += self._bred(generator)
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
         self._dry_run.look_at(one for _, one in new)
         offers, known = [], self._dry_run.known(self._trials, self.tried)
@@ -137,6 +142,16 @@ class ProposalLoop:
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
         return found
+
+    def _bred(self, generator: np.random.Generator) -> list[Array]:
+        """Return points (d,) bred from those with the best estimates: other hills than the best's are climbed too."""
+        assert self._dry_run is not None
+        known = self._dry_run.estimates(self._trials, self.tried).values()
+        held = [
+            (score, point) for point, score in known if self._dry_run.failure(self._space.to_variant(point)) is None
+        ]
+        parents = [point for _, point in sorted(held, key=lambda one: -one[0])[:PARENTS]]
+        return list(self._space.snap(bred(np.array(parents), generator).round(DIGITS))) if len(parents) >= 4 else []
 
     def _look_around(self) -> None:
         """Try the neighbours of what the last step found, if it is a leap."""

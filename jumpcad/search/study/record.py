@@ -18,13 +18,13 @@ from jumpcad.files.complaints import shown
 from jumpcad.files.names import Name, Text
 from jumpcad.search.phases import LEARNING_PHASES, STAGES
 from jumpcad.search.pick.tolerances import MADE, Tolerances
-from jumpcad.search.study.trial import Count, Trial, one_of
+from jumpcad.search.study.trial import PLACE, Count, Trial, one_of
 
 KEY = re.compile(r"[^.\x00-\x1f\x7f]{1,80}(\.[^.\x00-\x1f\x7f]{1,80}){1,3}")
 """Dotted keys of a workshop."""
 
 _TRIAL = TypeAdapter(Trial)
-COLUMNS = ("phase", "run", "step", "place", "score", "record")
+COLUMNS = (*PLACE, "score", "record")
 """Of a row: the position of its trial, which is the key, the score, and all of the trial as JSON."""
 
 

@@ -65,7 +65,7 @@ class Request:
     seed: int = 0
     preset: str = "recommended"
     batch: int = 1
-    prior: str | Path | None = None
+    prior: Path | None = None
     until_percent: float = UNTIL_PERCENT
     hours: float = 0.0
     screen: bool = False

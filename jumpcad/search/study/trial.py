@@ -44,6 +44,7 @@ def one_of(names: Iterable[str]) -> Callable[[str], str]:
 
 
 Phase = Annotated[str, AfterValidator(one_of(PHASES))]
+PLACE = "phase", "run", "step", "place"
 Position = tuple[Phase, Count, Count, Count]
 """Where a trial was proposed: phase, run, step and place; each position of a study has one trial."""
 if TYPE_CHECKING:
@@ -247,10 +248,7 @@ def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: 
     """Return one flat record; a figure that the trial does not have is None."""
     evaluation = trial.evaluation
     return {
-        "phase": trial.phase,
-        "run": trial.run,
-        "step": trial.step,
-        "place": trial.place,
+        **dict(zip(PLACE, trial.position, strict=True)),
         **trial.design.model_dump(),
         **{key: trial.workshop.get(key) for key in keys},
         "verdict": evaluation.verdict,

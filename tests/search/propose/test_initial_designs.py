@@ -3,9 +3,11 @@
 import math
 
 import numpy as np
+import pytest
 from support.hills import SMALL, TOP, Hill
 
 from jumpcad.design import load_design
+from jumpcad.search.estimate.quick_robot import quick_robot, quick_size_m
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.initial_designs import APART, first_points, ranked_points
 from jumpcad.search.study.objective import find_objective
@@ -44,17 +46,20 @@ def test_what_is_not_admitted_is_passed_over():
     assert points[-1].tolist() == [0.1, 0.9, 0.5]  # the first is not admitted, the third too near
 
 
-def test_the_printed_robot_s_quick_model_is_the_capsule_robot():
-    score, capsule = find_objective("range"), robot_model("capsule")
-    for name in ("best-ga", "kenan-2.0"):
-        design = load_design(name)
-        exact = capsule(design).metrics["ballistic_range_m"]
-        assert abs(robot_model().quick_score(design, score) - exact) < 0.03 * exact
-    assert robot_model("capsule").quick_score(load_design("best-ga"), score) == -math.inf
+def test_the_quick_robot_is_about_the_printed_one():
+    """Masses of shipped robots within a tenth; springs of 80 N·mm/° are too strong for one."""
+    for name, mass_kg in (("best-ga", 0.1512), ("kenan-2.0", 0.1163), ("best-printable", 0.1469)):
+        robot = quick_robot(design := load_design(name))
+        assert sum(body.mass_kg for body in robot.bodies.values()) == pytest.approx(mass_kg, rel=0.1)
+        assert quick_size_m(design) >= design.l_max_mm / 1000.0
+    strong = load_design("best-printable").model_copy(update={"stiffness_nmm_per_deg": 80.0})
+    assert quick_robot(strong) is None
+    assert robot_model().quick_score(strong, find_objective("touchdown")) == -math.inf
 
 
-def test_an_objective_that_capsules_lack_ranks_by_fitness():
+def test_an_objective_that_the_quick_robot_lacks_ranks_by_its_touchdown():
     design = load_design("best-ga")
-    fitness = robot_model().quick_score(design, find_objective("fitness"))
-    assert robot_model().quick_score(design, find_objective("body_lengths")) == fitness > 0
+    touchdown = robot_model().quick_score(design, find_objective("touchdown"))
+    assert robot_model().quick_score(design, find_objective("jumps-per-joule")) == touchdown > 0
+    assert robot_model("capsule").quick_score(design, find_objective("touchdown")) == -math.inf
     assert TOP
