@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from jumpcad.checks import CHECKS, OF_MECHANISM, Check
+from jumpcad.checks import CHECKS, Check
 from jumpcad.checks.assembly import assembly_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.checks.printability import printability_findings
@@ -57,21 +57,21 @@ class Remedies:
         for one in findings:
             ways = cured.get(one.name, one.ways)
             if one.name in wrong and one.name not in cured:
-                ways, gone = self._numbered(one.ways, one.name, one.name, one.margin, wrong)
+                ways, gone = self._numbered(one.ways, one.name, one.margin, wrong)
                 cured |= dict.fromkeys(gone - cured.keys(), f"the change for {one.name} is enough")
             numbered.append(replace(one, ways=ways))
         return numbered
 
     def of_refusal(self, refusal: CannotBuildError) -> CannotBuildError:
         """Return why a design cannot be built, its remedy with a number where one is found."""
-        ways, _ = self._numbered(refusal.ways, refusal.limit, FAILS, _margin(refusal), frozenset([FAILS]))
+        ways, _ = self._numbered(refusal.ways, FAILS, _margin(refusal), frozenset([FAILS]))
         return CannotBuildError(refusal.what, refusal.limit, refusal.margin, refusal.unit, ways)
 
     def _numbered(
-        self, remedy: Remedy, limit: str, name: str, margin: float, wrong: frozenset[str]
+        self, remedy: Remedy, name: str, margin: float, wrong: frozenset[str]
     ) -> tuple[Remedy, frozenset[str]]:
         """Return a remedy, that with a number first where one is found, and the limits that it cures."""
-        ways = OF_MECHANISM.get(limit, ()) if isinstance(remedy, str) else remedy
+        ways = () if isinstance(remedy, str) else remedy
         changes = [one for one in ways if isinstance(one, Change) and one.direction is not None]
         for one in sorted(changes, key=lambda one: not self._is_far(one.key, one.direction or 0)):
             value = self._cure(one.key, one.direction or 0, (name, margin), wrong)

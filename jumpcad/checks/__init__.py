@@ -12,7 +12,7 @@ from fnmatch import fnmatchcase
 
 from jumpcad.checks import assembly, foot_clearance, interference, printability, righting
 from jumpcad.drive.stock_spring import for_bought_springs
-from jumpcad.findings import Basis, Finding, Ways, higher, lower, nearer_to_1
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot.robot import Robot
@@ -51,14 +51,6 @@ CHECKS = (
     Check(righting.righting_findings, righting.BASIS, cheap=False),
 )
 """Every check, in the order of its findings."""
-OF_MECHANISM: dict[str, Ways] = {
-    "winding": nearer_to_1("c_coef") + higher("d_coef"),
-    "loop": lower("compression_ratio") + nearer_to_1("c_coef"),
-    "below_ground": lower("compression_ratio") + higher("rest_angle_deg"),
-    "tips": higher("e_coef") + lower("ground_link_angle_deg", "compression_ratio"),
-    "too_weak": higher("stiffness_nmm_per_deg", "compression_ratio", "rest_angle_deg") + lower("carrying_link_mm"),
-}
-"""Ways out of the limits of `jumpcad.mechanism`, which says its own in words alone."""
 
 
 def check(robot: Mechanism) -> list[Finding]:
@@ -94,5 +86,5 @@ def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
     """Return the findings of those checks whose needs the robot meets."""
     findings = [one for check in checks if isinstance(robot, check.needs) for one in check.find(robot)]
     if isinstance(robot, Robot) and robot.workshop.bought.spring:
-        return [replace(found, ways=for_bought_springs(OF_MECHANISM.get(found.name, found.ways))) for found in findings]
+        return [replace(found, ways=for_bought_springs(found.ways)) for found in findings]
     return findings

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.findings import Basis, Finding, at_least
+from jumpcad.findings import Basis, Finding, at_least, higher, lower, nearer_to_1
 from jumpcad.mechanism.linkage import Linkage, Pose, linkage_of, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
 from jumpcad.transforms import Array
@@ -69,7 +69,7 @@ def geometry_findings(design: Design) -> list[Finding]:
         "below_ground", height, 0.0, "mm",
         f"lowest body pivot with loaded springs is {height:.1f} mm above the line through ankle and front eye, of 0 "
         "mm at least",
-        "lower compression_ratio, or raise rest_angle_deg",
+        lower("compression_ratio") + higher("rest_angle_deg"),
     )  # fmt: skip
     return [loop, below]
 
@@ -86,7 +86,7 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
         "tips", stability, 0.0, "mm",
         f"centre of mass with loaded springs is {x:.1f} mm from the ankle; the foot spans {back:.1f} to {front:.1f} "
         f"mm: {stability:.1f} mm are left, of 0 mm at least",
-        "lengthen the toes (e_coef) or turn them back (smaller ground_link_angle_deg), or lower compression_ratio",
+        higher("e_coef", note="longer toes") + lower("ground_link_angle_deg", "compression_ratio"),
     )  # fmt: skip
     work = mechanism.mass_kg * gravity_m_s2 * float(com[1, 1] - com[0, 1]) / 1000.0
     needed = TAKEOFF_ENERGY_FACTOR * work
@@ -94,7 +94,7 @@ def statics_findings(mechanism: Mechanism, gravity_m_s2: float = GRAVITY_M_S2) -
         "too_weak", mechanism.spring.energy_j, needed, "J",
         f"the springs hold {1000.0 * mechanism.spring.energy_j:.1f} mJ; standing up against gravity takes "
         f"{1000.0 * work:.1f} mJ, and a jump needs {TAKEOFF_ENERGY_FACTOR} times that, {1000.0 * needed:.1f} mJ",
-        "raise stiffness_nmm_per_deg or compression_ratio, or raise rest_angle_deg, or lower carrying_link_mm",
+        higher("stiffness_nmm_per_deg", "compression_ratio", "rest_angle_deg") + lower("carrying_link_mm"),
     )  # fmt: skip
     return [tips, weak]
 
@@ -133,7 +133,7 @@ def _winding_finding(design: Design) -> Finding:
         "winding", "error", to_flat, "°",
         f"the springs cannot be loaded: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, which leaves "
         f"{to_flat:.1f}° of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg; more than 0° are needed",
-        "bring c_coef nearer to 1, or raise d_coef", to_flat, 0.0,
+        nearer_to_1("c_coef") + higher("d_coef"), to_flat, 0.0,
     )  # fmt: skip
 
 
@@ -142,5 +142,5 @@ def _loop_finding(margin_mm: float, why: str) -> Finding:
     found = closes if margin_mm > 0 else f"is {abs(margin_mm):.2f} mm short of closing"
     return Finding(
         "loop", "info" if margin_mm > 0 else "error", margin_mm, "mm", f"the loop {found}: {why}",
-        "lower compression_ratio, or bring c_coef nearer to 1", margin_mm, 0.0,
+        lower("compression_ratio") + nearer_to_1("c_coef"), margin_mm, 0.0,
     )  # fmt: skip
