@@ -21,9 +21,9 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
+from jumpcad.robot import layout as layout_module
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.layout import Layout, make_layout, moving_obstacles
-from jumpcad.robot.robot import layout as layout_module
 from jumpcad.robot.space.obstacles import LEVER_HEAD_MM
 from jumpcad.robot.space.room import EVERYWHERE, disc
 from jumpcad.robot.space.sweep import legs_apart_mm

@@ -11,7 +11,7 @@ from support.workshops import workshop_with
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot.robot import sizing
+from jumpcad.robot import sizing
 from jumpcad.robot.sizing import TYPICAL_BODY, Sections, leg_flex_share, sections
 from jumpcad.strength.growth import Growth
 from jumpcad.strength.loads import push_off, toe_load_n
