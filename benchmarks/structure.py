@@ -26,8 +26,8 @@ def main() -> None:
     print(f"circles of imports {len(_circles(texts))}")
     print(f"modules that name the five-bar's links {sum(bool(FIVE_BAR.search(text)) for text in texts.values())}")
     for room in sorted(path.parent.name for path in PACKAGE.glob("robot/*/thing.py")):
-        there = [name for name in modules if name.startswith(f"jumpcad.robot.robot.{room}.")]
-        beside = [one for one in modules if re.search(rf"\.{room}$", one) and not one.startswith("jumpcad.robot.robot")]
+        there = [name for name in modules if name.startswith(f"jumpcad.robot.{room}.")]
+        beside = [one for one in modules if re.search(rf"\.{room}$", one) and not one.startswith("jumpcad.robot")]
         print(f"{room}: {len(there)} files in its folder, elsewhere {', '.join(beside) or 'none'}")
     design = jumpcad.load_design("best-printable")
     _touched("build of kenan-2.0", lambda: jumpcad.build("kenan-2.0"))

@@ -30,7 +30,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Thing:
-    """A thing on the robot, one folder of `jumpcad.robot.robot`.
+    """A thing on the robot, one folder of `jumpcad.robot`.
 
     `draw` yields its printed parts and `bought` its bought ones. `checks` are its limits. `place` returns where it is
     on a machine that has its place already, or None where a robot goes without; the layout then has it (`Layout.of`).
