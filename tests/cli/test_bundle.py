@@ -211,7 +211,7 @@ def test_a_robot_that_tips_is_refused_and_written_anyway(run: Run, tmp_path: Pat
     code, out, err = run(*command)
     assert (code, out) == (1, "")
     assert "does not jump (tips)" in err
-    assert "lengthen the toes" in err
+    assert "raise e_coef (longer toes)" in err
     assert "--anyway" in err
     assert not (tmp_path / "b").exists()
     assert run(*command, "--anyway")[0] == 0

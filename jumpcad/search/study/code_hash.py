@@ -20,7 +20,7 @@ PRESENTATION = (
     "exporters/curves.", "exporters/dxf.", "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.",
     "exporters/step.", "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.",
     "printing/plates.", "printing/project.", "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.",
-    "scene/raster.", "scene/renderer.", "scene/shading.", "search/report/", "steps/", "studio/", "templates/",
+    "scene/raster.", "scene/renderer.", "scene/shading.", "search/report/", "steps/step_", "studio/", "templates/",
     "validation/", "variation.",
 )  # fmt: skip
 """Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""
