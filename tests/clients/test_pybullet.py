@@ -17,8 +17,10 @@ from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.exporters.urdf import urdf_files
 from jumpcad.files import template_names
+from jumpcad.settings import Settings
 from jumpcad.simulation import simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
+from jumpcad.simulation.simulator import divided
 from jumpcad.workshop import load_workshop, own_workshop
 
 pybullet = needs.package("pybullet")
@@ -60,14 +62,15 @@ def test_jumps_as_far_as_in_memory(case: Case) -> None:
 @pytest.mark.thorough
 @pytest.mark.parametrize("name", template_names("robots"))
 def test_the_program_of_the_docs_jumps_as_far(name: str, tmp_path: Path) -> None:
-    """In a process of its own: it shares nothing with the engine but PyBullet."""
+    """In a process of its own: it shares nothing with the engine but PyBullet, and the step that the page tells."""
     page = (ROOT / "docs" / "simulators.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```python\n(import json\nimport math\n.*?)assert [^\n]*\n```", page, re.S)
     robot = build(load_design(name), load_workshop(own_workshop(name)), name)
     for path, data in urdf_files(robot):
         (tmp_path / "exports" / name / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / "exports" / name / path).write_bytes(data if isinstance(data, bytes) else data.encode())
-    command = [sys.executable, "-c", program.replace("kenan-2.0", name) + "print(range_m)"]
+    step = str(divided(robot, Settings()).dt_s)
+    command = [sys.executable, "-c", program.replace("kenan-2.0", name).replace("1 / 2000", step) + "print(range_m)"]
     told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
     there = simulate(robot, engine="pybullet").ballistic_range_m
     assert float(told.split()[-1]) == pytest.approx(there, rel=0.01)
