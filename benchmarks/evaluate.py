@@ -27,7 +27,7 @@ from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
-from jumpcad.process.gc_tuning import collect_seldom
+from jumpcad.process import collect_seldom
 from jumpcad.workshop import load_workshop
 
 BEST = ("best-printable", "best-bo")

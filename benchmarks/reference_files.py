@@ -20,10 +20,10 @@ from jumpcad.bundle.manifest import open_bundle
 from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, SlicedPlate
 from jumpcad.calibration import posterior, surface
 from jumpcad.cli.commands import run
-from jumpcad.cli.slicing import slice_facts
+from jumpcad.cli.printing import slice_facts
 from jumpcad.exporters.registry import EXPORTERS
 from jumpcad.landing import lightest_cage
-from jumpcad.search.pick.robust import ActiveBound
+from jumpcad.search.robust_pick import ActiveBound
 from jumpcad.simulation import uncertain
 from jumpcad.validation import table as validation_table
 from jumpcad.validation.family import family

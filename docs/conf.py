@@ -6,7 +6,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from jumpcad.version import __version__  # noqa: E402
+from jumpcad.face import __version__  # noqa: E402
 
 project = "jumpcad"
 release = version = __version__

@@ -4,8 +4,8 @@ The public names load when they are first used, so that `import jumpcad` and the
 the latter runs does it answer an interrupt in one line.
 """
 
-from jumpcad.lazy_exports import lazy_exports
-from jumpcad.version import __version__ as __version__
+from jumpcad.face import __version__ as __version__
+from jumpcad.face import lazy_exports
 
 TYPE_CHECKING = False  # type checkers take it for true; to import typing takes longer than all else here
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from jumpcad.api import export as export
     from jumpcad.api import simulate as simulate
     from jumpcad.bundle.manifest import Bundle as Bundle
+    from jumpcad.bundle.variants import variants as variants
     from jumpcad.comparison import compare as compare
     from jumpcad.design import PRINTED_BOUNDS as PRINTED_BOUNDS
     from jumpcad.design import SEARCH_BOUNDS as SEARCH_BOUNDS
@@ -36,15 +37,15 @@ if TYPE_CHECKING:
     from jumpcad.settings import load_settings as load_settings
     from jumpcad.simulation import Jump as Jump
     from jumpcad.simulation.robot_file import load_robot as load_robot
-    from jumpcad.variation import variants as variants
     from jumpcad.workshop import Workshop as Workshop
     from jumpcad.workshop import load_workshop as load_workshop
 else:
     __getattr__, __dir__, __all__ = lazy_exports(__name__, {
         "jumpcad": "search",
-        "jumpcad.version": "__version__",
+        "jumpcad.face": "__version__",
         "jumpcad.api": "build capsule_robot check evaluate export simulate",
         "jumpcad.bundle.manifest": "Bundle",
+        "jumpcad.bundle.variants": "variants",
         "jumpcad.comparison": "compare",
         "jumpcad.design": "PRINTED_BOUNDS SEARCH_BOUNDS Design load_design",
         "jumpcad.environment": "JumpEnv",
@@ -59,6 +60,5 @@ else:
         "jumpcad.settings": "Settings load_settings",
         "jumpcad.simulation": "Jump",
         "jumpcad.simulation.robot_file": "load_robot",
-        "jumpcad.variation": "variants",
         "jumpcad.workshop": "Workshop load_workshop",
     })  # fmt: skip

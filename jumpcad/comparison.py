@@ -16,6 +16,7 @@ from jumpcad.bundle.lanes import lane, lanes_values
 from jumpcad.bundle.limits import limits_of, tightest, used, with_verdict
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.face import __version__
 from jumpcad.files import template_names
 from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
@@ -26,7 +27,6 @@ from jumpcad.simulation import Jump, headline
 from jumpcad.simulation.uncertain import uncertainty_of
 from jumpcad.studio.points import Points
 from jumpcad.transforms import ByValue
-from jumpcad.version import __version__
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.varied import leaves
 

@@ -108,3 +108,12 @@ KEY_UNITS = {
 def unit_of_key(key: str) -> str:
     """Return the unit of a value by the end of its key; empty if it says none."""
     return next((unit for end, unit in KEY_UNITS.items() if key.endswith(f"_{end}")), "")
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number and its noun, in the plural unless it is one: 1 design, 2 designs, 0 designs.
+
+    The noun is the first word; what follows it stays: `counted(2, "design of the space")`.
+    """
+    first, space, rest = noun.partition(" ")
+    return f"{number} {first}{'' if number == 1 else 's'}{space}{rest}"

@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.arguments import check_arguments
 from jumpcad.bundle.inputs import robot_of
 from jumpcad.bundle.renders import JUMP_VIEW, corners_of
+from jumpcad.bundle.variants import variants
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import described
@@ -25,7 +26,6 @@ from jumpcad.scene.floor import with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained, pose_at
-from jumpcad.variation import variants
 from jumpcad.workshop import Workshop
 
 try:

@@ -46,7 +46,7 @@ def hidden_from(module: str, code: str) -> str:
 
 def test_what_windows_lacks_is_hidden_from_the_package_alone() -> None:
     code = "import os, signal, sys; print(hasattr(os, 'fork'), hasattr(signal, 'SIGKILL'), sys.platform)"
-    assert hidden_from("jumpcad.process.cores", code) == "False False win32"
+    assert hidden_from("jumpcad.process", code) == "False False win32"
     assert hidden_from("loky.backend", code) == f"True True {sys.platform}"
 
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
-from jumpcad.files.csv_text import to_csv
+from jumpcad.files.reading import to_csv
 from jumpcad.parts.mass_line import MassLine
-from jumpcad.plural import counted
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once

@@ -9,7 +9,7 @@ from jumpcad.building.assembly import assembled
 from jumpcad.checks import constraint_findings
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
-from jumpcad.files.names import composed
+from jumpcad.files.records import composed
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot.robot import Robot, require_name

@@ -36,8 +36,8 @@ from jumpcad.bundle.manifest import (
     trouble,
 )
 from jumpcad.errors import JumpcadError
+from jumpcad.face import __version__
 from jumpcad.files.outputs import real_path, require_writable, sha256
-from jumpcad.version import __version__
 
 LIBRARIES = ("manifold3d", "numpy", "trimesh")
 """Libraries on whose versions the shapes may depend."""

@@ -10,12 +10,12 @@ from typing import Annotated, Any, NoReturn
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictFloat, StrictInt
 
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import read_json
-from jumpcad.files.names import Text
 from jumpcad.files.outputs import sha256
+from jumpcad.files.records import Text
 from jumpcad.parts.mass_line import MassLine
-from jumpcad.plural import counted
 
 MANIFEST = "manifest.json"
 FORMAT = 1

@@ -18,8 +18,9 @@ from jumpcad.bundle.viewer import viewer_values
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import unit_of_key
 from jumpcad.exporters.xml import allowed
+from jumpcad.face import __version__
 from jumpcad.files import Record, TomlTable, find_template, template_names
-from jumpcad.files.names import Name
+from jumpcad.files.records import Name
 from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import errors
@@ -28,7 +29,6 @@ from jumpcad.robot.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
 from jumpcad.simulation.published_robots import efficiency_band
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
-from jumpcad.version import __version__
 
 
 class Beside(TomlTable):

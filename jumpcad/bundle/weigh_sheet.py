@@ -4,7 +4,7 @@ from collections import defaultdict
 from dataclasses import replace
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files.csv_text import to_csv
+from jumpcad.files.reading import to_csv
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import CHOOSE

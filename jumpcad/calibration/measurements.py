@@ -14,7 +14,7 @@ from pydantic import Field
 
 from jumpcad.arguments import check_arguments
 from jumpcad.files import Contradiction, Record, TomlTable, find_template
-from jumpcad.files.names import Name, Text
+from jumpcad.files.records import Name, Text
 
 Grams = Annotated[float, Field(gt=0, le=1e5)]
 Lengths = Annotated[tuple[Annotated[float, Field(gt=0, le=1e6)], ...], Field(strict=False, max_length=1000)]

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.reading import read_bytes
-from jumpcad.plural import counted
 from jumpcad.transforms import Array
 
 LEAST_POINTS = 6

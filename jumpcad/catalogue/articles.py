@@ -10,7 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 from pydantic_core import PydanticCustomError
 
 from jumpcad.files import Contradiction, TomlTable
-from jumpcad.files.names import Name, Text
+from jumpcad.files.records import Name, Text
 
 STEEL_G_CM3 = 7.85
 """Density of steel (EN 1991-1-1, table A.4: 77 to 78.5 kN/m³)."""

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from jumpcad.catalogue.articles import Article, Confidence, Mass, Positive, Side, Source, Volts
 from jumpcad.files import Contradiction
-from jumpcad.files.names import Name, OptionalName, Text
+from jumpcad.files.records import Name, OptionalName, Text
 
 FUNCTIONS = ("ground", "battery", "out", "adc", "pwm", "strapping", "boot_log",
              "forward", "reverse", "sleep", "motor+", "motor-")  # fmt: skip

@@ -18,7 +18,7 @@ from jumpcad.catalogue.articles import (
     Volts,
 )
 from jumpcad.files import Contradiction, TomlTable
-from jumpcad.files.names import Name, OptionalName, Text
+from jumpcad.files.records import Name, OptionalName, Text
 
 CELL_V = (3.3, 3.7, 4.2)
 """One lithium polymer cell: empty under light load, nominal, full; the usual figures of makers."""

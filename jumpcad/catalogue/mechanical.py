@@ -8,7 +8,7 @@ from pydantic import Field, model_validator
 
 from jumpcad.catalogue.articles import STEEL_G_CM3, Article, Length, Mass, Positive, Source
 from jumpcad.files import Contradiction
-from jumpcad.files.names import Text
+from jumpcad.files.records import Text
 
 RINGS_MM = 2.0
 """Least difference of outside diameter and bore of a bearing: that of the smallest of ISO 15, 1 x 3 mm."""

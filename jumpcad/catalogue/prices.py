@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from jumpcad.files import TomlTable, find_template, read_toml
-from jumpcad.files.names import Name, Text
+from jumpcad.files.records import Name, Text
 
 Euros = Annotated[float, Field(gt=0, le=1e4)]
 

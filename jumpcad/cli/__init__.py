@@ -6,8 +6,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING, NoReturn
 
-from jumpcad.process.blas_threads import ONE_THREAD
-from jumpcad.process.interrupts import deferring, seen
+from jumpcad.process import ONE_THREAD, deferring, seen
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -56,7 +55,7 @@ def main() -> NoReturn:
     for name, threads in ONE_THREAD.items():  # before numpy loads
         os.environ.setdefault(name, threads)
     try:
-        from jumpcad.process.gc_tuning import collect_seldom
+        from jumpcad.process import collect_seldom
 
         collect_seldom()
         from jumpcad.cli.commands import run

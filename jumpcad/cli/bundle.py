@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli.check import jump_in_words, notes
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
 from jumpcad.cli.subjects import (
     DesignArgument,
@@ -19,9 +20,8 @@ from jumpcad.cli.subjects import (
     note_template,
     printed_robot,
 )
-from jumpcad.cli.verdict import jump_in_words, notes
+from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
-from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle

@@ -15,27 +15,22 @@ from typer.exceptions import TyperException
 
 from jumpcad.cli import (
     bundle,
-    cage,
     calibrate,
     check,
-    compare,
-    coupon,
     designs,
     explore,
     listing,
+    literature,
     optimize,
+    printing,
     report,
-    reproduce,
     simulate,
-    slicing,
     studio,
     study,
-    validate,
-    variants,
 )
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.process.interrupts import raise_if_seen
+from jumpcad.process import raise_if_seen
 
 WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
@@ -56,15 +51,15 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "verify": bundle.verify,
     "report": report.report,
     "check": check.check,
-    "compare": compare.compare,
-    "slice": slicing.slice_command,
-    "coupon": coupon.coupon,
+    "compare": report.compare,
+    "slice": printing.slice_command,
+    "coupon": printing.coupon,
     "simulate": simulate.simulate,
-    "cage": cage.cage,
-    "variants": variants.variants,
+    "cage": designs.cage,
+    "variants": designs.variants,
     "calibrate": calibrate.calibrate,
-    "validate": validate.validate,
-    "reproduce": reproduce.reproduce,
+    "validate": literature.validate,
+    "reproduce": literature.reproduce,
     "explore": explore.explore,
     "optimize": optimize.optimize,
     "study": study.study,
@@ -85,7 +80,7 @@ for name, command in COMMANDS.items():
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        from jumpcad.version import __version__
+        from jumpcad.face import __version__
 
         print(f"jumpcad {__version__}")
         raise typer.Exit

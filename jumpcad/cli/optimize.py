@@ -11,8 +11,8 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_
 from jumpcad.cli.progress import watching
 from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, with_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
+from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls
-from jumpcad.plural import counted
 from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
@@ -169,7 +169,7 @@ def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]", force: 
     if folder is None:
         return []
     from jumpcad.search.report.figures import save_figure
-    from jumpcad.search.report.study_plots import best_so_far, plot_study
+    from jumpcad.search.report.page import best_so_far, plot_study
     from jumpcad.search.study.store import StudyStore
 
     with StudyStore.read(path) as store:

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from jumpcad.cli.output import status
-from jumpcad.plural import counted
+from jumpcad.dimensions import counted
 
 if TYPE_CHECKING:
     from jumpcad.search.study.evaluator import Watch

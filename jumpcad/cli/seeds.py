@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import console, table
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.plural import counted
 from jumpcad.search.phases import FRONTS
 
 if TYPE_CHECKING:

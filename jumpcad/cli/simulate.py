@@ -13,8 +13,8 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, robot_from_file
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.plural import counted
 from jumpcad.simulation.engines import ENGINE_HELP, GENERAL, default_engine
 
 if TYPE_CHECKING:

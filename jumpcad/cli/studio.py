@@ -33,7 +33,7 @@ def studio(
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.files.templates import template_names
-    from jumpcad.process.gc_tuning import collect_usually
+    from jumpcad.process import collect_usually
     from jumpcad.studio import Studio
 
     is_study = design.endswith(STUDY) and not os.path.isdir(design)

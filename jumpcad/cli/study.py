@@ -8,8 +8,8 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, require_plots
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.plural import counted
 
 if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore
@@ -58,7 +58,7 @@ def study(
             if export is not None:
                 write_table(store.trials(), export, force)
             if plots is not None:
-                from jumpcad.search.report.study_plots import plot_study
+                from jumpcad.search.report.page import plot_study
 
                 summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots, force)]
     if as_json:

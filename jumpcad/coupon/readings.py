@@ -28,7 +28,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.drive.gears import PRESSURE_ANGLE_RAD
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable
-from jumpcad.files.names import Name
+from jumpcad.files.records import Name
 from jumpcad.strength.stress import VON_MISES
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.tables import SHARES

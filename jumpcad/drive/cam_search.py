@@ -21,7 +21,7 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import FIRST_ROWS, ROWS, CamLimits, axis_range, measure
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, lower
-from jumpcad.process.blas_threads import one_thread
+from jumpcad.process import one_thread
 from jumpcad.transforms import Array
 
 FTOL = 1e-5

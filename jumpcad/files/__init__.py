@@ -5,7 +5,7 @@ The public names load when they are first used: the command line's help needs no
 
 from typing import TYPE_CHECKING
 
-from jumpcad.lazy_exports import lazy_exports
+from jumpcad.face import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.files.complaints import did_you_mean as did_you_mean

@@ -1,16 +1,19 @@
-"""Reads files that need not be trusted: regular files of limited size and depth; errors are one line."""
+"""Reads files that need not be trusted: regular files of limited size and depth; errors are one line. Writes tables."""
 
+import csv
+import io
 import json
 import os
 import re
 import stat
 import tomllib
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import tomli_w
 
-from jumpcad.errors import JumpcadError
+from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 
 LARGEST_BYTES = 1 << 20
@@ -21,6 +24,10 @@ NESTED = f"nested deeper than {DEEPEST} levels"
 MOST_DOTS = 200
 DECIMAL = re.compile(r"(?<=[\[,\s])[-+]?\d+\.\d+(?=\s*[],])")
 """A number in a list; in keys there are none before a comma or a bracket."""
+FORMULA = ("=", "+", "-", "@", "\t", "\n", "＝", "＋", "－", "＠")
+"""First characters of formulas (OWASP, CSV injection), also in full-width form."""
+BOM = "\ufeff"
+"""Byte order mark: without it, Excel on Windows reads a file in the system's old character set."""
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
@@ -129,3 +136,31 @@ def _require_shallow(data: Any, path: Path) -> None:
 def to_toml(data: dict[str, Any]) -> str:
     """Return `data` as TOML text; the same data gives the same text."""
     return tomli_w.dumps(data)
+
+
+def to_csv(rows: Iterable[Sequence[object]]) -> str:
+    """Return rows as CSV; the first is the heading. Text that would be a formula is preceded by an apostrophe.
+
+    A table with other characters than ASCII begins with a byte order mark: read it as `utf-8-sig`.
+    """
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows([_cell(value) for value in row] for row in rows)
+    text = stream.getvalue()
+    return text if text.isascii() else BOM + text
+
+
+def _cell(value: object) -> object:
+    """Return a value that is safe in a cell; numbers, also those given as text, stay as they are."""
+    if not isinstance(value, str) or _is_number(value):
+        return value
+    text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
+    text = without_controls(text, "[\n\t]")
+    return f"'{text}" if text.startswith(FORMULA) else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

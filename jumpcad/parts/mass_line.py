@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictFloat, StrictInt
 
-from jumpcad.files.names import Text
+from jumpcad.files.records import Text
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@
 
 from typing import TYPE_CHECKING
 
-from jumpcad.lazy_exports import lazy_exports
+from jumpcad.face import lazy_exports
 
 if TYPE_CHECKING:
     from jumpcad.search.explore import components as components
@@ -28,11 +28,11 @@ if TYPE_CHECKING:
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.search.parameter import SearchParameter as SearchParameter
     from jumpcad.search.phases import METHODS as METHODS
-    from jumpcad.search.pick.robust import ActiveBound as ActiveBound
-    from jumpcad.search.pick.robust import Candidate as Candidate
     from jumpcad.search.report import plots as plots
     from jumpcad.search.report.figures import save_figure as save_figure
-    from jumpcad.search.report.study_plots import plot_study as plot_study
+    from jumpcad.search.report.page import plot_study as plot_study
+    from jumpcad.search.robust_pick import ActiveBound as ActiveBound
+    from jumpcad.search.robust_pick import Candidate as Candidate
     from jumpcad.search.space import Space as Space
     from jumpcad.search.study.evaluator import Evaluator as Evaluator
     from jumpcad.search.study.objective import OBJECTIVES as OBJECTIVES
@@ -57,10 +57,10 @@ else:
         "jumpcad.search.optimization": "optimize",
         "jumpcad.search.parameter": "SearchParameter",
         "jumpcad.search.phases": "METHODS",
-        "jumpcad.search.pick.robust": "ActiveBound Candidate",
+        "jumpcad.search.robust_pick": "ActiveBound Candidate",
         "jumpcad.search.report": "plots",
         "jumpcad.search.report.figures": "save_figure",
-        "jumpcad.search.report.study_plots": "plot_study",
+        "jumpcad.search.report.page": "plot_study",
         "jumpcad.search.space": "Space",
         "jumpcad.search.study.evaluator": "Evaluator",
         "jumpcad.search.study.objective": "OBJECTIVES Evaluation Objective find_objective",

@@ -7,9 +7,9 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.plural import counted
-from jumpcad.process.blas_threads import one_thread
+from jumpcad.process import one_thread
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import warped
 from jumpcad.search.propose.surrogate import Surrogate

@@ -14,23 +14,27 @@ from jumpcad.building.refusal import statics_refusal
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES
+from jumpcad.face import __version__
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.search.estimate.estimated_robot import layout_figures, robot_figures
-from jumpcad.search.estimate.quick_robot import quick_robot, quick_size_m
-from jumpcad.search.estimate.refusal import layout_findings, room_findings
-from jumpcad.search.pick.tolerances import PREFIX, Tolerances, perturbed
+from jumpcad.search.estimate.estimated_robot import (
+    layout_figures,
+    layout_findings,
+    quick_robot,
+    quick_size_m,
+    robot_figures,
+    room_findings,
+)
 from jumpcad.search.study.code_hash import code_digest, versions
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
 from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations
-from jumpcad.search.study.variant import NOTHING, Variant
+from jumpcad.search.study.variant import NOTHING, PREFIX, Tolerances, Variant, perturbed
 from jumpcad.settings import Settings, load_settings
 from jumpcad.simulation.engines import default_engine, require_engine
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE, floors
 from jumpcad.simulation.uncertain import ROBUST_PITCH, ROBUST_TOUCHDOWN, robust_figures
-from jumpcad.version import __version__
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
 from jumpcad.workshop.varied import Value
 

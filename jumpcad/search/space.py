@@ -30,7 +30,7 @@ from jumpcad.search.parameter import (
     several,
 )
 from jumpcad.search.study.variant import NOTHING, Key, Variant
-from jumpcad.sobol import sobol
+from jumpcad.simulation.prior import sobol
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop, workshop_value
 from jumpcad.workshop.varied import Value

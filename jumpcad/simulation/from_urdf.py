@@ -20,7 +20,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.loop_file import JOINTS, LoopFile
 from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import shown
-from jumpcad.files.names import LONGEST_TEXT, control_character
+from jumpcad.files.records import LONGEST_TEXT, control_character
 from jumpcad.mechanism.model import (
     BODY_NAMES,
     Body,

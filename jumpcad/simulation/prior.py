@@ -1,4 +1,4 @@
-"""What is believed of a quantity before it is measured, as a function of a standard normal."""
+"""What is believed of a quantity before it is measured, as a function of a standard normal; evenly spread points."""
 
 import math
 from dataclasses import dataclass
@@ -67,3 +67,14 @@ def floors(mechanism: Mechanism, settings: Settings) -> tuple[Settings, ...]:
     usual = coefficients(mechanism, settings).ground
     frictions = (usual * math.exp(sign * 2.0 * FLOOR_SHARE) for sign in (-1.0, 1.0))
     return tuple(settings.model_copy(update={"ground_friction": friction}) for friction in frictions)
+
+
+def sobol(dimension: int, count: int, generator: np.random.Generator) -> Array:
+    """Return evenly spread points (count, dimension) of the unit cube; `count` is a power of two.
+
+    They are the first of Sobol's sequence, which the generator scrambles (Owen 1998), by scipy.
+    """
+    from scipy.stats import qmc  # takes half a second to import; most processes of a search need no points
+
+    points: Array = qmc.Sobol(dimension, seed=generator).random(count)
+    return points

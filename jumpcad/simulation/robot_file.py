@@ -20,7 +20,7 @@ from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable, read_toml
-from jumpcad.files.names import Name
+from jumpcad.files.records import Name
 from jumpcad.mechanism.capsule import capsule, capsule_robot
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import (

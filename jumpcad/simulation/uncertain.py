@@ -23,9 +23,16 @@ from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_sp
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.planar import touchdown
-from jumpcad.simulation.prior import FLOOR_SHARE, PIN_FRICTION, PRINTED_MASS_SHARE, QUANTILES, SPRING_EFFICIENCY, Prior
+from jumpcad.simulation.prior import (
+    FLOOR_SHARE,
+    PIN_FRICTION,
+    PRINTED_MASS_SHARE,
+    QUANTILES,
+    SPRING_EFFICIENCY,
+    Prior,
+    sobol,
+)
 from jumpcad.simulation.simulator import divided, simulate
-from jumpcad.sobol import sobol
 from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array, ByValue
 

@@ -15,8 +15,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, sealed, write_files
 from jumpcad.robot.robot import Robot
 from jumpcad.search.study.result import workshop_file
-from jumpcad.studio.answers import Printed, capsule_answer, printed_answer
-from jumpcad.studio.playback import Playback, playback
+from jumpcad.studio.answers import Playback, Printed, capsule_answer, playback, printed_answer
 from jumpcad.studio.player import Player, slider_ends, slider_step, when_changed
 from jumpcad.studio.points import STUDYS, Points
 from jumpcad.studio.stage import StudioStage

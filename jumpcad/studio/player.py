@@ -9,7 +9,7 @@ from typing import Any
 from jumpcad.bundle.motion import SHOWN_S
 from jumpcad.design import PRINTED_BOUNDS, limits_of
 from jumpcad.errors import JumpcadError
-from jumpcad.studio.playback import Playback
+from jumpcad.studio.answers import Playback
 from jumpcad.studio.stage import StudioStage
 
 FRAME_S = 1.0 / 30.0

@@ -14,7 +14,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.scene.surface import seen
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.tube import DrawnWire, tube
-from jumpcad.studio.playback import ShownMoment
+from jumpcad.studio.answers import ShownMoment
 from jumpcad.transforms import Array, chained, pose_about_y
 
 WRONG = (0.80, 0.16, 0.14)

@@ -11,7 +11,7 @@ from jumpcad.design import DEFAULT
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 from jumpcad.files.complaints import Origin, place, shown
-from jumpcad.files.names import NAME, NAME_RULE, composed
+from jumpcad.files.records import NAME, NAME_RULE, composed
 from jumpcad.workshop.tables import Roles
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 

@@ -7,7 +7,7 @@ from pydantic import Field
 
 from jumpcad.catalogue import ElectricalParts
 from jumpcad.files import TomlTable
-from jumpcad.files.names import Name, OptionalName, Text
+from jumpcad.files.records import Name, OptionalName, Text
 
 # Lower limits keep quotients finite: they are below any figure of a robot that is printed and jumps.
 Positive = Annotated[float, Field(ge=1e-4, le=1e4)]

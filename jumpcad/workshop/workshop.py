@@ -28,7 +28,7 @@ from jumpcad.catalogue import (
 )
 from jumpcad.dimensions import DOG_PLAY_MIN_DEG
 from jumpcad.files import Contradiction, Record, to_toml
-from jumpcad.files.names import Name
+from jumpcad.files.records import Name
 from jumpcad.workshop.slots import SLOTS
 from jumpcad.workshop.tables import (
     BodyPlates,

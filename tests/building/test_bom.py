@@ -14,7 +14,7 @@ from jumpcad.building.bom import BilledPlate, bill_of_facts, bill_of_materials, 
 from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.files.csv_text import BOM
+from jumpcad.files.reading import BOM
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop
 

@@ -15,7 +15,7 @@ from jumpcad import checks
 from jumpcad.building import assembly, build, growth
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.checks import check, constraint_findings
-from jumpcad.cli.verdict import notes
+from jumpcad.cli.check import notes
 from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, at_least, errors

@@ -67,7 +67,7 @@ def test_libraries_count_no_leaks_at_the_end() -> None:
 
 SWALLOWED = """
 from jumpcad.cli import commands, main
-from jumpcad.process.interrupts import seen
+from jumpcad.process import seen
 commands.run = lambda arguments: seen.append(2) or 0
 try:
     main()

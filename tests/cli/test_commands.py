@@ -19,7 +19,7 @@ from jumpcad.bundle.export import export
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
-from jumpcad.version import __version__
+from jumpcad.face import __version__
 
 HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklearn", "matplotlib", "pygad")
 

@@ -10,7 +10,7 @@ from support.searches import NARROW, QUICK, data, refusal, run
 from jumpcad.cli import main
 from jumpcad.cli.seeds import seeds_facts
 from jumpcad.design import load_design
-from jumpcad.search.report.study_plots import best_so_far
+from jumpcad.search.report.page import best_so_far
 from jumpcad.search.study import run as study
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.pool import Pool

@@ -12,10 +12,9 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.paper import published
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
-from jumpcad.search.study.variant import Variant
+from jumpcad.search.study.variant import Tolerances, Variant
 from jumpcad.settings import load_settings
 from jumpcad.simulation import Jump
 from jumpcad.simulation.engines import default_engine

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.process.blas_threads import one_thread
+from jumpcad.process import one_thread
 from jumpcad.search.estimate.estimate import Estimate, Estimator
 from jumpcad.search.estimate.fitted_figures import MARK, of_layout
 from jumpcad.search.models import PrintedModel

@@ -14,7 +14,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.process.cores import Shared
+from jumpcad.process import Shared
 from jumpcad.robot.robot import Robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot
 from jumpcad.search.estimate.fitted_figures import MARK, FittedFigures

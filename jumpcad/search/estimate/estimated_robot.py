@@ -2,8 +2,13 @@
 
 Lengths, loaded angle and springs follow from the design, friction and pins from the workshop. What is left are mass,
 centre of mass and inertia of the bodies, the radii that touch the ground, the stop and the release.
+
+`quick_robot` is about what a design would be, in microseconds: the capsule robot with a printed one's mass and size,
+with which the first designs of a search are chosen. Of ten winners of searches it tells the touchdown within a tenth;
+what has no room, and most of what breaks, it does not know.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -11,12 +16,16 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.design import Design
+from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.errors import CannotBuildError
+from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.sweep import legs_apart_mm
 from jumpcad.scene.extent import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
@@ -26,6 +35,11 @@ LAID = {
     "laid_motor_z_mm": 10.0, "laid_tray_x_mm": 10.0,
 }  # fmt: skip
 """Figures of a layout on which masses depend, and what counts as 1 of each in a fit; judgement."""
+BODY_MM, ABOVE_MM, BESIDE_MM = 100.0, 60.0, 20.0
+"""Length of a printed robot's body, and by how much body and feet stand out from the links' ends."""
+MOST_J, MOST_NM = 0.8, 1.75
+"""Energy and torque of springs above which a first design is hardly ever built: of 505 random robots of the default
+workshop, all 146 that kept all limits had less. Release kick and the leg's axle reject the others."""
 
 
 def layout_figures(layout: Layout) -> dict[str, float]:
@@ -113,3 +127,52 @@ def _contact(contact: ContactSphere, figures: Mapping[str, float], like: Body) -
     if "toe" not in contact.name:
         return replace(contact, radius_m=depth)
     return replace(contact, centre_m=contact.centre_m + np.array([0.0, 0.0, toe - depth]), radius_m=toe)
+
+
+def quick_size_m(design: Design) -> float:
+    """Return about the size of a printed robot: within 8 %, in the median of 223 that jump."""
+    high = ABOVE_MM + design.l2_mm * math.sin(math.radians(design.rest_angle_deg))
+    wide = BESIDE_MM + 2.0 * design.l5_mm * math.sin(math.radians(design.ground_link_angle_deg))
+    return max(design.l_max_mm, BODY_MM, high, wide) / 1000.0
+
+
+def quick_robot(design: Design) -> Mechanism | None:
+    """Return the robot of a design about as it is printed; None where its springs are too strong.
+
+    Its mass is that of 505 random robots of the default workshop within 6 g (least squares): by the lengths of the
+    links, the stiffness and the energy of the springs.
+    """
+    plain = capsule_robot(design)
+    energy_j, stiffness = plain.spring.energy_j, plain.spring.stiffness_nm_per_rad
+    if energy_j > MOST_J or 2.0 * energy_j * stiffness > MOST_NM**2:
+        return None
+    links_g = 0.106 * design.l2_mm + 0.028 * design.l3_mm + 0.194 * design.l4_mm + 0.1 * design.l5_mm
+    mass_kg = (77.0 + links_g + 0.216 * design.stiffness_nmm_per_deg + 48.5 * energy_j) / 1000.0
+    heavier = mass_kg / sum(body.mass_kg for body in plain.bodies.values())
+    bodies = {
+        name: replace(body, mass_kg=heavier * body.mass_kg, inertia_kg_m2=heavier * body.inertia_kg_m2)
+        for name, body in plain.bodies.items()
+    }
+    return replace(plain, bodies=bodies)
+
+
+def layout_findings(error: CannotBuildError) -> tuple[Finding, ...]:
+    """Return the limit that a refused layout missed, with its negative margin, if it was a number.
+
+    A layout ends with its first refusal. Studies keep the missing millimetres, which are learned.
+    """
+    if error.margin is None:
+        return ()
+    return (Finding(error.limit, "error", error.margin, error.unit, str(error), ""),)
+
+
+def room_findings(layout: Layout, reserve_mm: float) -> tuple[Finding, ...]:
+    """Return what a robot has left, above a reserve, of the room for which most designs are refused."""
+    gap, room, way = legs_apart_mm(layout.linkage, layout.sections), layout.stop.room_mm, layout.pin_hole.room_mm
+    needed = GAP_MM + reserve_mm
+    apart = f"main leg and front link are {gap:.2f} mm apart, of {needed:g} mm at least"
+    return (
+        limit("legs_apart", gap - GAP_MM - reserve_mm, "mm", apart, ""),
+        limit("stop_room", room, "mm", f"the rest stop has {room:.2f} mm of room, of 0 mm at least", ""),
+        limit("pin_way", way, "mm", f"the leg's pin has {way:.2f} mm of room on its way, of 0 mm at least", ""),
+    )

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from jumpcad.plural import counted
-from jumpcad.process.blas_threads import one_thread
+from jumpcad.dimensions import counted
+from jumpcad.process import one_thread
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points

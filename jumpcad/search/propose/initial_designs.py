@@ -16,7 +16,7 @@ from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, searched
 from jumpcad.search.study.variant import Variant
-from jumpcad.sobol import sobol
+from jumpcad.simulation.prior import sobol
 from jumpcad.transforms import Array
 
 SCREENED, BRED, GENERATIONS, CROSSED = 512, 48, 12, 0.8

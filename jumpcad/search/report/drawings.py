@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.report.words import meaning_of, unit_of, value_words, with_unit
+from jumpcad.search.report.figures import meaning_of, unit_of, value_words, with_unit
 from jumpcad.search.space import Space
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials

@@ -1,4 +1,4 @@
-"""Figures as SVG and PNG files: one style, and the same bytes for the same data."""
+"""Figures as SVG and PNG files, of one style and the same bytes for the same data; words and units of figures."""
 
 import io
 import tomllib
@@ -12,8 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from jumpcad.arguments import check_arguments
+from jumpcad.design import Design
+from jumpcad.dimensions import KEY_UNITS, unit_of_key
+from jumpcad.evaluation import FIGURES
 from jumpcad.files.outputs import sealed, sealed_png, write_files
 from jumpcad.files.templates import templates_folder
+from jumpcad.workshop.varied import Value
 
 PICTURES = (
     "history", "slices", "parallel", "pareto", "acquisition-first", "acquisition", "seeds",
@@ -26,6 +30,8 @@ INK = "#4a4f57"
 PNG_DPI = 150
 LETTERS_PER_INCH = 17.0
 """Of the sentence below a picture."""
+SHOWN_AS = {"kg": ("g", 1000.0), "m": ("mm", 1000.0), "J": ("mJ", 1000.0)}
+"""Units in which figures are shown in place of others, and the factor."""
 STYLE: dict[Any, Any] = {
     "svg.hashsalt": "jumpcad",
     "svg.fonttype": "path",
@@ -88,3 +94,51 @@ def labels(axes: Axes, x: str, y: str, title: str = "") -> None:
     axes.set_ylabel(y)
     if title:
         axes.set_title(title, fontsize=9.0)
+
+
+def unit_of(parameter: str) -> str:
+    """Return the unit of a parameter by the end of its name; of one of the design without any, `ratio`."""
+    return unit_of_key(parameter) or ("ratio" if parameter in Design.model_fields else "")
+
+
+def with_unit(text: str, parameter: str) -> str:
+    """Return values of a parameter with its unit; ratios have none."""
+    unit = unit_of(parameter)
+    return text if unit in ("", "ratio") else f"{text}{unit}" if unit == "°" else f"{text} {unit}"
+
+
+def named(parameter: str) -> str:
+    """Return a parameter's name with its unit, for a heading or an axis."""
+    unit = unit_of(parameter)
+    return f"{parameter} ({unit})" if unit else parameter
+
+
+def meaning_of(parameter: str) -> str:
+    """Return what a parameter of the design is; empty for a value of the workshop."""
+    field = Design.model_fields.get(parameter)
+    return field.description or "" if field else ""
+
+
+@cache
+def reasons() -> dict[str, str]:
+    """Return what each reason of a refusal means; names that begin with one of these mean the same."""
+    return tomllib.loads((templates_folder() / "report/reasons.toml").read_text(encoding="utf-8"))
+
+
+def reason_words(reason: str) -> str:
+    """Return what a reason of a refusal means; empty if it is not known."""
+    names = [name for name in reasons() if reason == name or reason.startswith(f"{name}_")]
+    return reasons()[max(names, key=len)] if names else ""
+
+
+def figure_words(name: str, value: float) -> tuple[str, str]:
+    """Return label and value, with its unit, of a figure of an evaluation."""
+    end = next((end for end in KEY_UNITS if name.endswith(f"_{end}")), "")
+    unit, factor = SHOWN_AS.get(KEY_UNITS.get(end, ""), (KEY_UNITS.get(end, ""), 1.0))
+    label = FIGURES.get(name, name.removesuffix(f"_{end}").replace("_", " "))
+    return label, f"{factor * value:.4g}{'' if unit == '°' else ' '}{unit}".strip()
+
+
+def value_words(value: Value, digits: int = 6) -> str:
+    """Return a parameter's value: a name, or a number with so many digits."""
+    return value if isinstance(value, str) else f"{value:.{digits}g}"

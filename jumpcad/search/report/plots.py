@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import PARAMETERS, Design
-from jumpcad.plural import counted
+from jumpcad.dimensions import counted
 from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.parameter import SearchParameter

@@ -21,7 +21,7 @@ from jumpcad.mechanism.planar import points
 from jumpcad.search.fronts import Cost, energy_j, front
 from jumpcad.search.models import PUBLISHED_FIGURES
 from jumpcad.search.report.drawings import MOST_DOTS, Axes, evenly, scale
-from jumpcad.search.report.words import figure_words, value_words, with_unit
+from jumpcad.search.report.figures import figure_words, value_words, with_unit
 from jumpcad.search.study.trial import Trial
 
 HEADLINES = ("touchdown_distance_m", "ballistic_range_m", "com_rise_m", "mass_kg", "winding_time_s")

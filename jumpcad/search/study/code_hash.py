@@ -21,7 +21,7 @@ PRESENTATION = (
     "exporters/step.", "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.",
     "printing/plates.", "printing/project.", "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.",
     "scene/raster.", "scene/renderer.", "scene/shading.", "search/report/", "steps/step_", "studio/", "templates/",
-    "validation/", "variation.",
+    "validation/",
 )  # fmt: skip
 """Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""
 FORKS = {"pybullet": "pybullet-arm64"}

@@ -7,7 +7,7 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.process.cores import A, T
+from jumpcad.process import A, T
 from jumpcad.search.models import RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import QUARANTINED, Evaluation, Objective

@@ -20,7 +20,7 @@ import numpy as np
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import did_you_mean, read_bytes
 from jumpcad.files.complaints import described, shown
-from jumpcad.files.names import NAME
+from jumpcad.files.records import NAME
 from jumpcad.search.study.code_hash import file_hash, function_hash
 
 SUFFIX = ".py"

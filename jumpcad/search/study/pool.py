@@ -22,8 +22,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
-from jumpcad.process.cores import A, T, cores, one_by_one
-from jumpcad.process.interrupts import raise_if_seen
+from jumpcad.process import A, T, cores, one_by_one, raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant

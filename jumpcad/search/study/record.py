@@ -15,10 +15,10 @@ from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
-from jumpcad.files.names import Name, Text
+from jumpcad.files.records import Name, Text
 from jumpcad.search.phases import LEARNING_PHASES, STAGES
-from jumpcad.search.pick.tolerances import MADE, Tolerances
 from jumpcad.search.study.trial import PLACE, Count, Trial, one_of
+from jumpcad.search.study.variant import MADE, Tolerances
 
 KEY = re.compile(r"[^.\x00-\x1f\x7f]{1,80}(\.[^.\x00-\x1f\x7f]{1,80}){1,3}")
 """Dotted keys of a workshop."""

@@ -10,10 +10,10 @@ from typing import Any
 
 from jumpcad.arguments import check_fields
 from jumpcad.design import Design
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
-from jumpcad.plural import counted
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
 from jumpcad.search.phases import (

@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.design import Design
+from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import require_target, sealed, write_files
-from jumpcad.plural import counted
 from jumpcad.search.fronts import front, hypervolume
 from jumpcad.search.models import PrintedModel
-from jumpcad.search.pick.robust import ActiveBound, Candidate
+from jumpcad.search.robust_pick import ActiveBound, Candidate
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.trial import Trial, count_rejections, is_flat, to_frame
 from jumpcad.search.study.why_none import why_required

@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from jumpcad.arguments import check_arguments
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.plural import counted
 from jumpcad.search.fronts import front
 from jumpcad.search.phases import METHODS, SEARCH_PHASES, STAGES
-from jumpcad.search.pick.robust import ActiveBound, Candidate, active_bounds, rank_candidates
+from jumpcad.search.robust_pick import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.evaluator import Evaluator, Watch
 from jumpcad.search.study.pool import Pool

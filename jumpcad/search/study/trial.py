@@ -15,9 +15,9 @@ from pydantic_core import PydanticCustomError
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.files.csv_text import to_csv
-from jumpcad.files.names import Text
 from jumpcad.files.outputs import require_target, write_atomically
+from jumpcad.files.reading import to_csv
+from jumpcad.files.records import Text
 from jumpcad.findings import least
 from jumpcad.search.phases import PHASES, SEARCH_PHASES
 from jumpcad.search.study.objective import EQUALS, Evaluation, Figure, Margin

@@ -7,10 +7,10 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 from jumpcad.building.growth import built_and_checked
 from jumpcad.design import PRINTED_BOUNDS, SEARCH_BOUNDS
+from jumpcad.dimensions import counted
 from jumpcad.drive.stock_spring import SPRING, STIFFNESS
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Change, Finding, Remedy, errors, in_words
-from jumpcad.plural import counted
 from jumpcad.search.models import PrintedModel, RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import CANNOT_BUILD

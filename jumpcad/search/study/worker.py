@@ -19,10 +19,7 @@ import cloudpickle
 import loky
 
 from jumpcad.errors import JumpcadError
-from jumpcad.process.blas_threads import ONE_THREAD, one_thread
-from jumpcad.process.cores import one_by_one
-from jumpcad.process.gc_tuning import collect_seldom
-from jumpcad.process.interrupts import deferred_interrupts
+from jumpcad.process import ONE_THREAD, collect_seldom, deferred_interrupts, one_by_one, one_thread
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.variant import Variant

@@ -7,7 +7,7 @@ import pytest
 from support.hills import SMALL, TOP, Hill
 
 from jumpcad.design import load_design
-from jumpcad.search.estimate.quick_robot import quick_robot, quick_size_m
+from jumpcad.search.estimate.estimated_robot import quick_robot, quick_size_m
 from jumpcad.search.models import robot_model
 from jumpcad.search.propose.initial_designs import APART, first_points, ranked_points
 from jumpcad.search.study.objective import find_objective

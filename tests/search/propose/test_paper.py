@@ -10,7 +10,7 @@ from support.stages import stage
 from jumpcad.design import PARAMETERS, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.search.propose.paper import FEW, LINKS, NEAR_PERCENT, RUNS, _efficiency, run_paper
-from jumpcad.search.report.study_plots import plot_study
+from jumpcad.search.report.page import plot_study
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.pool import local_pool

@@ -9,15 +9,15 @@ import pytest
 from support.hills import SMALL
 
 from jumpcad.design import load_design
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding
-from jumpcad.plural import counted
 from jumpcad.search.explore import Importance
-from jumpcad.search.pick.robust import NOT_EXAMINED, ActiveBound
 from jumpcad.search.report import page as study_page
+from jumpcad.search.report.figures import reason_words, with_unit
 from jumpcad.search.report.page import importances, reason_rows, rising
-from jumpcad.search.report.words import reason_words, with_unit
+from jumpcad.search.robust_pick import NOT_EXAMINED, ActiveBound
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial

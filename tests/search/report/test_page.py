@@ -2,23 +2,23 @@
 
 import re
 import shlex
-import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from functools import cache
 from urllib.parse import unquote
+from xml.etree import ElementTree
 
 import pytest
 from support.bumps import REST, Bump, studied
 from support.shops import SHOP, Shop
-from support.studies import IDENTITY
+from support.studies import IDENTITY, trials
 
 from jumpcad.design import load_design
 from jumpcad.search.fronts import SPRING_ENERGY, front, hypervolume
-from jumpcad.search.pick.robust import Candidate
-from jumpcad.search.pick.tolerances import Tolerances
 from jumpcad.search.report import page as study_page
-from jumpcad.search.report.page import write_study_page
+from jumpcad.search.report.figures import PICTURES
+from jumpcad.search.report.page import _moments, plot_study, write_study_page
 from jumpcad.search.report.shown_design import LINKS, joints_mm
+from jumpcad.search.robust_pick import Candidate
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.pool import local_pool
@@ -27,6 +27,7 @@ from jumpcad.search.study.run import run_study
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.summary import StudySummary
 from jumpcad.search.study.trial import Trial, write_table
+from jumpcad.search.study.variant import Tolerances
 
 SPACE = Space.parse(fix=REST, bound=["compression_ratio=0.1:0.8"])
 
@@ -274,16 +275,16 @@ def test_a_front_is_told_from_end_to_end_and_where_half_of_it_is_reached(monkeyp
     low, half, high = (f"{shown[n].design.spring_energy_j:.3g} J" for n in (0, 2, 3))
     rises = [replace(one, evaluation=Evaluation("jump", {"com_rise_m": 1.0 / (n + 2)})) for n, one in enumerate(shown)]
     below = [replace(one, score=one.score - 9.0) for one in shown]
-    for against, trials, said in (
+    for against, these, said in (
         ("spring-energy", shown, f"1 m with {low} to 4 m with {high}; half of the highest score comes with {half}."),
         ("spring-energy", below, f"-8 m with {low} to -5 m with {high}."),
         ("rise", rises, "1 m with 0.5 m to 4 m with 0.2 m; "),
     ):  # fmt: skip
         store, found = made_up("nsga2", against=against)
-        numbers = {trial.position: n for n, trial in enumerate(trials, start=1)}
+        numbers = {trial.position: n for n, trial in enumerate(these, start=1)}
         with store:
             assert f"Here it goes from {said}" in words(
-                store, replace(found, trials=trials, numbers=numbers), monkeypatch
+                store, replace(found, trials=these, numbers=numbers), monkeypatch
             )
 
 
@@ -347,3 +348,36 @@ def test_a_page_has_all_its_sections_in_their_order(studies):
     assert fronts == [
         "The front", "What was asked", *headings[2:5], "Importance", "Active bounds", "Why designs were rejected"
     ]  # fmt: skip
+
+
+def pictures(store, folder, names):
+    """Return the pictures of a study by their files' names; those that it must have are there."""
+    drawn = plot_study(store, folder)
+    assert {path.stem for path in drawn} == names <= set(PICTURES)
+    assert all(ElementTree.parse(one).getroot().tag.endswith("svg") for one in drawn)
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+@pytest.mark.thorough
+@pytest.mark.usefixtures("quick_proposals")
+def test_a_study_has_its_pictures(tmp_path):
+    """Of the method that has all kinds."""
+    names = {"history", "slices", "parallel", "pareto", "acquisition-first", "acquisition"}
+    with studied(tmp_path / "s.db", Space.parse(fix=REST), "pareto") as store:
+        pictures(store, tmp_path / "a", names)
+
+
+@pytest.mark.thorough
+@pytest.mark.usefixtures("quick_proposals")
+def test_one_free_parameter_has_no_parallel_lines_and_no_front_without_one_and_they_repeat(tmp_path):
+    with studied(tmp_path / "s.db", Space.parse(fix=[*REST, "rest_angle_deg=50"])) as store:
+        names = {"history", "slices", "acquisition-first", "acquisition"}
+        assert pictures(store, tmp_path / "a", names) == pictures(store, tmp_path / "b", names)
+
+
+def test_the_first_picture_has_what_was_known_before_it_and_the_last_one_every_design():
+    """Of five designs the third and the fourth were proposed; what others look at is none of it."""
+    proposed = [{}, {}, {"theta": {}}, {"theta": {}}, {}]
+    found = [replace(one, phase="bo", proposal=note) for one, note in zip(trials(5), proposed, strict=True)]
+    assert _moments(found) == [("acquisition-first", 2, 2), ("acquisition", 3, 5)]
+    assert _moments(found[:2]) == _moments([replace(one, phase="robust") for one in found]) == []

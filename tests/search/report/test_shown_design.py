@@ -10,8 +10,8 @@ from jumpcad.design import Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.search.fronts import SPRING_ENERGY, find_cost
 from jumpcad.search.report.drawings import Axes, scale
+from jumpcad.search.report.figures import with_unit
 from jumpcad.search.report.shown_design import HEADLINES, box_mm, chart, joints_mm, shown_design
-from jumpcad.search.report.words import with_unit
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
 

@@ -17,8 +17,8 @@ from support import needs
 from support.hills import Hill, Trap
 from support.places import TESTS
 
+from jumpcad import process
 from jumpcad.errors import JumpcadError
-from jumpcad.process import interrupts
 from jumpcad.search.space import Space
 from jumpcad.search.study import pool as pool_module
 from jumpcad.search.study.objective import QUARANTINED
@@ -218,7 +218,7 @@ class Interrupted(Hill):
     def __call__(self, design):
         super().__call__(design)
         if len(self.log.read_text().splitlines()) == 3:
-            interrupts.seen.append(2)
+            process.seen.append(2)
         if design.rest_angle_deg > 60.0:
             raise ZeroDivisionError
         return Hill()(design)
@@ -226,14 +226,14 @@ class Interrupted(Hill):
 
 def test_a_command_that_was_interrupted_evaluates_no_more(tmp_path, monkeypatch):
     """Neither further tasks, of which one was sent already, nor what is to be repeated."""
-    monkeypatch.setattr(interrupts, "seen", [])
+    monkeypatch.setattr(process, "seen", [])
     bad = DESIGNS[min(TRAPPED)]
     for number, (designs, most) in enumerate(((GOOD[:8], 4), ([bad, *GOOD[:2]], 3))):
         log = tmp_path / str(number)
         with local_pool(0) as pool, pytest.raises(KeyboardInterrupt):
             list(pool.evaluate(Interrupted(log=log), designs))
         assert 3 <= len(log.read_text().splitlines()) <= most
-        interrupts.seen.clear()
+        process.seen.clear()
 
 
 def test_workers_and_timeouts_have_ends_that_are_told():

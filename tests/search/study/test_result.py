@@ -15,7 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick.robust import ActiveBound, Candidate
+from jumpcad.search.robust_pick import ActiveBound, Candidate
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.result import Result

@@ -1,5 +1,6 @@
 """Work on several cores: no process with threads is copied, and nothing that was begun outlives an error."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -8,10 +9,12 @@ from pathlib import Path
 
 import pytest
 from support.robots import make_small_robot
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from jumpcad.bundle import export as module
 from jumpcad.bundle.export import contents
 from jumpcad.exporters.registry import Exporter
+from jumpcad.process import one_thread
 from jumpcad.search.study.pool import local_pool
 from jumpcad.simulation import simulate
 
@@ -67,3 +70,31 @@ def test_work_is_shared_in_order_and_what_workers_cannot_do_is_done_here(caplog:
             pool.shared(lambda one: 1 // one, range(9))
         assert pool.shared(abs, []) == []
     assert not caplog.records, "loky logs a traceback"
+
+
+FIRST_OF_ALL = """
+import numpy
+from threadpoolctl import threadpool_info
+from jumpcad.process import one_thread
+with one_thread():
+    import scipy.linalg, sklearn.gaussian_process
+    print(*{pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})
+"""
+
+
+def threads() -> set[int]:
+    return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
+
+
+def test_there_is_one_within_and_as_many_as_before_afterwards() -> None:
+    with threadpool_limits(2, user_api="blas"):
+        for _ in range(2):
+            with one_thread():
+                assert threads() == {1}
+            assert threads() == {2}
+
+
+def test_scipys_own_is_among_them_where_nothing_has_loaded_it_yet() -> None:
+    command, environment = [sys.executable, "-c", FIRST_OF_ALL], os.environ | {"OPENBLAS_NUM_THREADS": "2"}
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=environment)
+    assert done.stdout.strip() == "1"

@@ -16,12 +16,11 @@ from pydantic import AfterValidator, ConfigDict, PlainSerializer
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import physical_limits
-from jumpcad.search.pick.tolerances import SAMPLES, Tolerances, tenth
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Figure, Reason
 from jumpcad.search.study.trial import Count, Position, Trial, feasible_trials
-from jumpcad.search.study.variant import Variant
+from jumpcad.search.study.variant import SAMPLES, Tolerances, Variant, tenth
 
 MOST_CANDIDATES = 16
 """Designs that the first round examines, at most."""

@@ -1,9 +1,14 @@
-"""`jumpcad reproduce`: the published study's table of results, simulated again, with explanations."""
+"""`jumpcad reproduce`, `jumpcad validate`: the published study simulated again, and robots that others measured."""
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from jumpcad.cli.output import JsonFlag, console, print_json, table
+import typer
+
+from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
+from jumpcad.cli.searching import PlotsOption, require_pictures
+from jumpcad.cli.subjects import SeedOption
+from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -66,3 +71,45 @@ def _hyperparameters(items: "tuple[Hyperparameter, ...]", style: dict[str, Any])
 
 def _shown(value: float | None) -> str:
     return "none" if value is None else f"{value:.4f}"
+
+
+def validate(
+    figure: Annotated[
+        list[str] | None,
+        typer.Option(help="A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", metavar="FIGURE"),
+    ] = None,
+    seed: SeedOption = 0,
+    plots: PlotsOption = None,
+    force: ForceFlag = False,
+    as_json: JsonFlag = False,
+) -> None:
+    """Compare the engines with robots that others built and measured.
+
+    Tiers are never mixed: what a mechanism does, flights, whole robots, bounds.
+    A figure that is only remembered decides nothing.
+    """
+    from jumpcad.validation.table import TIERS
+    from jumpcad.validation.table import validate as compare
+
+    if plots:
+        from jumpcad.search.report.figures import save_figure
+        from jumpcad.validation.plot import PICTURES, validation
+
+        require_pictures(plots, PICTURES, force)
+    entered = dict(_entered(one) for one in figure or ())
+    with status("simulating robots of which dimensions are unknown …"):
+        robots = compare(entered, seed)
+    if plots:
+        save_figure(validation(robots), plots, *PICTURES, force)
+    if as_json:
+        print_json({"seed": seed, "entered": entered, "robots": robots})
+    else:
+        print_text("validate", tiers=TIERS, robots=robots)
+
+
+def _entered(text: str) -> tuple[str, float]:
+    key, _, value = text.partition("=")
+    try:
+        return key, float(value)
+    except ValueError:
+        raise JumpcadError(f"--figure {text}: give ROBOT.NAME=VALUE, as kovac-2008.spring_energy_j=0.154") from None

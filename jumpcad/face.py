@@ -1,6 +1,8 @@
-"""The face of a package: public names that load when they are first used."""
+"""The face of the package: its version, and public names that load when they are first used."""
 
 import sys
+
+__version__ = "0.1.0"
 
 TYPE_CHECKING = False  # as in `jumpcad`: nothing is imported before the command line is ready for an interrupt
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from jumpcad.building import build
 from jumpcad.design import load_design
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.search.models import robot_model
-from jumpcad.search.pick.robust import (
+from jumpcad.search.robust_pick import (
     NOT_EXAMINED,
     _Examined,
     _ranked,
@@ -20,11 +20,10 @@ from jumpcad.search.pick.robust import (
     plan_rounds,
     rank_candidates,
 )
-from jumpcad.search.pick.tolerances import Tolerances, perturbed
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
-from jumpcad.search.study.variant import Variant
+from jumpcad.search.study.variant import Tolerances, Variant, perturbed
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop

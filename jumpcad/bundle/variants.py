@@ -14,7 +14,7 @@ from jumpcad.bundle.manifest import Bundle
 from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.mjcf_robot import mjcf_files, write_robot
 from jumpcad.exporters.urdf import urdf_files, write_urdf
-from jumpcad.files.csv_text import to_csv
+from jumpcad.files.reading import to_csv
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals

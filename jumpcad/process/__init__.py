@@ -1,1 +1,0 @@
-"""This process and its cores: threads, garbage, Ctrl-C."""
