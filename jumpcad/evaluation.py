@@ -191,7 +191,7 @@ def evaluate(
         If the mechanism cannot work, or there is no room for its parts; of a robot that is too weak when it is asked
         for.
     """
-    from jumpcad.bundle.inputs import inputs_of
+    from jumpcad.bundle.manifest import inputs_of
 
     design, workshop, _ = inputs_of(design, workshop)
     design, workshop = design.revalidated(), workshop.revalidated()

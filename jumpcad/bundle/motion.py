@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.drive.motor import lift_s
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.animation import BodyMotion
+from jumpcad.exporters.glb import BodyMotion
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses

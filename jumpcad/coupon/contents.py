@@ -32,8 +32,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, paletted, png_of
-from jumpcad.solids.finish import require_part
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import require_part, write_stl
 from jumpcad.transforms import Array, pose_at
 from jumpcad.workshop import Workshop
 

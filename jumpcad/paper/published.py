@@ -12,7 +12,7 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
-from jumpcad.mechanism.capsule import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
+from jumpcad.mechanism.variants import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
 from jumpcad.simulation.engines import import_pybullet
 
 GROUND_FRICTION = 1.5

@@ -1,4 +1,4 @@
-"""Mass and time of a part by PrusaSlicer, printed as the workshop says."""
+"""Mass and time of a part by PrusaSlicer, printed as the workshop says; the settings of a 3MF file for it."""
 
 import math
 import re
@@ -159,3 +159,27 @@ def _seconds(text: str) -> float:
     """Return the seconds of a duration such as `1d 2h 3m 4s`."""
     units = {"d": 86400.0, "h": 3600.0, "m": 60.0, "s": 1.0}
     return sum(float(value) * units[unit] for value, unit in re.findall(r"(\d+)([dhms])", text))
+
+
+OF_THE_PRINTER = "start_gcode", "end_gcode"
+"""Settings of the mass model that a print must not have: it starts by heating and homing."""
+LAYERS = "first_layer_", ""
+"""Beginnings of the keys of temperatures: of the first layer, and of the others."""
+
+
+def project_settings(printer: Printer, process: Process, material: Material | Pad, filament: str) -> dict[str, str]:
+    """Return PrusaSlicer's settings of a print; `filament` is the material's name.
+
+    Temperatures that the workshop does not know are left out. Pads are printed as parts are, but solid, as their mass
+    is computed.
+    """
+    if isinstance(material, Pad):
+        process, heats = process.model_copy(update={"infill": 1.0}), {}
+    else:
+        heats = {"temperature": material.nozzle_c, "bed_temperature": material.bed_c}
+    settings = slicer_settings(printer, process, material)
+    return {
+        **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
+        "filament_type": filament,
+        **{f"{layer}{key}": f"{heat:g}" for key, heat in heats.items() if heat is not None for layer in LAYERS},
+    }

@@ -16,8 +16,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from jumpcad.scene.camera import Camera, View, aimed, turned
-from jumpcad.scene.raster import rasterized
-from jumpcad.scene.shading import CREASE_RAD, with_normals
+from jumpcad.scene.raster import CREASE_RAD, rasterized, with_normals
 from jumpcad.scene.visuals import Colour
 from jumpcad.transforms import Array
 

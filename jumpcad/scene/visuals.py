@@ -3,15 +3,21 @@
 Every picture and every exported file takes its meshes and colours from here.
 """
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
+import manifold3d
 import numpy as np
+import numpy.typing as npt
 
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot, decided_once
+from jumpcad.solids.outline import Region
+from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.transforms import Array, in_metres
 
@@ -101,3 +107,60 @@ def _bought(item: BoughtPart) -> Visual:
     label = f"{item.article} {item.name}".lower()
     colour = next((colour for word, colour in BOUGHT_COLOURS.items() if word in label), STEEL)
     return Visual(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item)
+
+
+Triangles = npt.NDArray[np.int64]
+Piece = tuple[Array, Triangles]
+"""Vertices (n, 3) in mm, and triangles (m, 3) whose corners run counter-clockwise seen from outside."""
+
+UNSEEN_MM = 0.02
+"""How far outlines are simplified; judgement: less than a pixel, however near the camera comes."""
+FLAT_MM = 1e-4
+"""Tolerance of the triangulation; corners lie on a grid of 1e-3 mm."""
+
+
+def seen(one: Visual) -> Piece:
+    """Return vertices (n, 3) in mm, in the mesh's own frame, and triangles (m, 3) of a part as it is seen."""
+    shape = one.shape
+    if isinstance(shape, Stack):
+        return surface(shape)
+    return np.asarray(one.mesh.vertices), np.asarray(one.mesh.faces)
+
+
+@lru_cache(maxsize=128)
+def surface(stack: Stack) -> Piece:
+    """Return the outside of a stack: vertices (n, 3) in mm, and triangles (m, 3)."""
+    cases = {(slab.number, slab.pocket_number, slab.inset_mm): slab for slab in stack.slabs}
+    regions = {case: slab.region.simplify(UNSEEN_MM) for case, slab in cases.items()}
+    slabs = [(slab.z0_mm, slab.z1_mm, regions[slab.number, slab.pocket_number, slab.inset_mm]) for slab in stack.slabs]
+    pieces = [*(_wall(region.to_polygons(), z0, z1) for z0, z1, region in slabs), *_ends(slabs)]
+    first = np.cumsum([0, *(len(vertices) for vertices, _ in pieces)])
+    triangles = [number + corners for number, (_, corners) in zip(first, pieces, strict=False)]
+    return np.concatenate([vertices for vertices, _ in pieces]), np.concatenate(triangles)
+
+
+def _wall(contours: Sequence[Array], z0_mm: float, z1_mm: float) -> Piece:
+    """Return the wall over contours (k, 2) between two heights."""
+    flat = np.concatenate(contours)
+    count = len(flat)
+    here = np.arange(count)
+    there = np.concatenate(
+        [np.roll(ring, -1) for ring in np.split(here, np.cumsum([len(one) for one in contours])[:-1])]
+    )
+    low, high = (np.column_stack([flat, np.full(count, z)]) for z in (z0_mm, z1_mm))
+    triangles = [np.column_stack([here, there, there + count]), np.column_stack([here, there + count, here + count])]
+    return np.concatenate([low, high]), np.concatenate(triangles)
+
+
+def _ends(slabs: Sequence[tuple[float, float, Region]]) -> Iterator[Piece]:
+    """Yield the flat faces of slabs (z0, z1, region) that no neighbour covers."""
+    nothing = (-np.inf, -np.inf, Region())
+    for (_, z1, lower), (z0, _, upper) in itertools.pairwise([nothing, *slabs, nothing]):
+        met = z0 == z1
+        for z, region, other, up in ((z1, lower, upper, True), (z0, upper, lower, False)):
+            contours = (region - other if met else region).to_polygons()
+            if not contours:
+                continue
+            flat = np.concatenate(contours)
+            triangles = np.asarray(manifold3d.triangulate(contours, FLAT_MM), dtype=np.int64).reshape(-1, 3)
+            yield np.column_stack([flat, np.full(len(flat), z)]), triangles if up else triangles[:, ::-1]

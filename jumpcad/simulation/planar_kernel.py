@@ -14,13 +14,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, TypeVar, cast
 
-from jumpcad.simulation.planar_model import PlanarModel
-from jumpcad.simulation.planar_state import (
+from jumpcad.simulation.planar_model import (
     Contact,
     Gains,
     Inertia,
     Links,
     Losses,
+    PlanarModel,
     PlanarMotion,
     PushOff,
     Stance,

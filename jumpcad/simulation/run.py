@@ -14,10 +14,9 @@ from scipy.spatial.transform import Rotation
 from jumpcad.findings import Basis, Finding, at_most, higher, limit
 from jumpcad.mechanism.model import Mechanism, Multibody
 from jumpcad.settings import Settings, coefficients, takeoff_clearance_m
-from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight, seen_flight
 from jumpcad.simulation.jump import EnergyBudget, Trajectory
-from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, drag_m_s2, drag_per_m, loaded_state
 from jumpcad.transforms import Array
 
 AUDIT_EVERY_S = 0.008

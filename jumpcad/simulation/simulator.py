@@ -6,7 +6,7 @@ from jumpcad.exporters.mjcf import SUBSTEPS
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism, Multibody
-from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.mechanism.planar import reflected_mass
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
+from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill

@@ -12,10 +12,10 @@ from jumpcad.building.bom import Bill
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.spring_sheet import scale_in_words
 from jumpcad.bundle.drawings.wiring import wires
+from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.socket import window_mm
@@ -27,8 +27,7 @@ from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
 from jumpcad.simulation import headline
-from jumpcad.steps.assembly_order import ORDER
-from jumpcad.steps.assembly_steps import Step
+from jumpcad.steps.assembly_steps import ORDER, Step
 from jumpcad.steps.step_views import motor_sense
 
 REAMED_MM = 0.1

@@ -12,9 +12,9 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.extent import extent_m

@@ -8,8 +8,8 @@ import math
 from dataclasses import replace
 
 from jumpcad.design import Design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 
 BODY_MM, ABOVE_MM, BESIDE_MM = 100.0, 60.0, 20.0
 """Length of a printed robot's body, and by how much body and feet stand out from the links' ends."""

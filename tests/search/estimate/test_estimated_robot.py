@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from support.quick import FIGURES, LIKE
 
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot, robot_figures
 
 MADE_UP = {

@@ -8,7 +8,7 @@ import pytest
 from support.decimals import decimals
 
 from jumpcad.design import PARAMETERS, Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.search.pick.tolerances import (
     FLOOR,
     PARTS,
