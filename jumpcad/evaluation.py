@@ -16,7 +16,7 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine
 from jumpcad.transforms import ByValue

@@ -23,8 +23,7 @@ from jumpcad.landing.series import Series
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.extent import extent_m
-from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.scene.visuals import Visual, extent_m, visuals
 from jumpcad.simulation.jump import Jump, Trajectory
 from jumpcad.steps.assembly_steps import assembly_steps
 from jumpcad.transforms import Array, chained

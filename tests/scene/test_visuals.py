@@ -4,13 +4,17 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
+from support.built import built
 
 from jumpcad.mechanism.mass import combined
+from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.visuals import Piece, seen, surface, visuals
+from jumpcad.scene.visuals import Piece, _corners_m, extent_m, seen, surface, visuals
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
+from jumpcad.transforms import in_metres
 
 
 def test_each_copy_is_seen_once_under_a_name_of_its_own(small_robot: Robot) -> None:
@@ -85,3 +89,30 @@ def test_a_robots_parts_look_as_their_closed_solids(small_robot: Robot) -> None:
         assert [*piece[0].min(axis=0), *piece[0].max(axis=0)] == pytest.approx(solid.bounding_box(), abs=0.05)
         assert area_mm2(piece) == pytest.approx(solid.surface_area(), rel=0.02)
         assert volume_mm3(piece) == pytest.approx(solid.volume(), rel=0.02)
+
+
+def test_the_extent_is_that_of_everything_on_the_robot() -> None:
+    robot = built("kenan-2.0")
+    poses = body_poses(robot)
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for one in visuals(robot):
+        pose = poses[one.body] @ one.T_body_mesh
+        points = one.mesh.vertices / 1000.0 @ pose[:3, :3].T + pose[:3, 3]
+        low, high = np.minimum(low, points.min(axis=0)), np.maximum(high, points.max(axis=0))
+    assert extent_m(robot) == pytest.approx(high - low, abs=2e-5)
+
+
+@pytest.mark.parametrize("turn", [(0.0, 0.0, 0.0), (30.0, 20.0, 10.0), (-140.0, 65.0, 200.0)])
+def test_a_prism_turned_anyhow_has_the_box_of_its_mesh(turn: tuple[float, float, float]) -> None:
+    """Of a part of several outlines the box contains the mesh."""
+    robot, pose = built("kenan-2.0"), np.eye(4)
+    pose[:3, :3] = Rotation.from_euler("xyz", turn, degrees=True).as_matrix()
+    pose[:3, 3] = [40.0, -70.0, 25.0]
+    exact = 0
+    for part in robot.parts:
+        points = part.mesh.vertices @ pose[:3, :3].T + pose[:3, 3]
+        low, high = 1000.0 * _corners_m(part.drawing.shape, in_metres(pose))
+        assert (low <= points.min(axis=0) + 0.02).all(), part.name
+        assert (high >= points.max(axis=0) - 0.02).all(), part.name
+        exact += np.allclose([low, high], [points.min(axis=0), points.max(axis=0)], atol=0.02)
+    assert exact >= 3

@@ -17,7 +17,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere,
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
 """Figures of a standing robot, of which the largest is its size."""
