@@ -38,13 +38,9 @@ from jumpcad.workshop import Workshop, varied
 
 
 def export(
-    robot: Robot,
-    folder: str | Path,
-    pictures: bool = True,
-    step: bool = False,
-    force: bool = False,
+    robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False,
     ros2: bool = False,
-) -> Bundle:
+) -> Bundle:  # fmt: skip
     """Write a robot's bundle.
 
     Parameters
@@ -119,14 +115,9 @@ def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None =
 
 
 def _page(
-    robot: Robot,
-    jump: Jump,
-    seen: Mapping[str, bytes],
-    glb: bytes | None,
-    files: Iterable[str],
-    sure: Uncertainty | None,
-    series: Series | None = None,
-) -> str:
+    robot: Robot, jump: Jump, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str],
+    sure: Uncertainty | None, series: Series | None = None,
+) -> str:  # fmt: skip
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)
 

@@ -60,22 +60,17 @@ def release_facts(release: Release) -> dict[str, Any]:
     motors in `assumed`, which are at the ends of the workshop's ranges; the second one is computed at low speed too.
     """
     return {
-        "energy_ratio": round(release.energy_ratio, 6),
-        "energy_ratio_rounded": round(release.rounded_ratio, 6),
+        "energy_ratio": round(release.energy_ratio, 6), "energy_ratio_rounded": round(release.rounded_ratio, 6),
         "energy_ratio_with_bending": round(release.off.energy_ratio, 6),
-        "bending_ratio": round(release.bending_ratio, 6),
-        "leg_deg": round(math.degrees(release.off.leg_rad), 6),
-        "leg_rad_s": round(release.off.leg_rad_s, 6),
-        "kick_nm": round(release.kick_nm, 6),
-        "kick_limit_nm": round(release.kick_limit_nm, 6),
-        "blow_at_cam_nm": round(release.blow_nm, 6),
-        "gear_ratio": round(release.gear_ratio, 9),
-        "push_off_s": round(release.push_off_s, 6),
+        "bending_ratio": round(release.bending_ratio, 6), "leg_deg": round(math.degrees(release.off.leg_rad), 6),
+        "leg_rad_s": round(release.off.leg_rad_s, 6), "kick_nm": round(release.kick_nm, 6),
+        "kick_limit_nm": round(release.kick_limit_nm, 6), "blow_at_cam_nm": round(release.blow_nm, 6),
+        "gear_ratio": round(release.gear_ratio, 9), "push_off_s": round(release.push_off_s, 6),
         "free_play_deg": round(math.degrees(release.free_play_rad), 6),
         "roll_over_deg": round(math.degrees(release.roll_over_rad), 6),
         "window_deg": [round(math.degrees(angle), 6) for angle in release.window_rad],
         "assumed": [_assumed(parts) for parts in release.parts],
-    }
+    }  # fmt: skip
 
 
 def _assumed(parts: ReleaseParts) -> dict[str, float]:
@@ -88,14 +83,10 @@ def stop_facts(robot: Robot) -> dict[str, Any]:
     """Return the stop's angle past rest, energy and torque of the leg's impact, and the pad with its compression."""
     stop, blow = robot.layout.stop, robot.stop_blow
     return {
-        "angle_deg": round(math.degrees(stop.angle_rad), DIGITS),
-        "blow_j": blow.energy_j,
-        "torque_nm": blow.torque_nm,
-        "pad": stop.pad.name,
-        "give_mm": blow.give_mm,
-        "give_deg": round(math.degrees(blow.give_rad), DIGITS),
+        "angle_deg": round(math.degrees(stop.angle_rad), DIGITS), "blow_j": blow.energy_j, "torque_nm": blow.torque_nm,
+        "pad": stop.pad.name, "give_mm": blow.give_mm, "give_deg": round(math.degrees(blow.give_rad), DIGITS),
         "radius_mm": stop.radius_mm,
-    }
+    }  # fmt: skip
 
 
 def electronics_facts(robot: Robot) -> dict[str, Any]:

@@ -181,15 +181,11 @@ def lanes_values(lanes: Sequence[Lane]) -> dict[str, Any]:
     moving = [{"t": one.time_s, "poses": np.round(one.poses, 2).tolist()} for one in lanes]
     data = {"end": max(one.time_s[-1] for one in lanes), "slower": SHOWN_S / shortest, "lanes": moving}
     return {
-        "lanes": lanes,
-        "left": left,
-        "width": right - left,
-        "tops": [math.floor(one.low[1] - EDGE_MM) for one in lanes],
-        "ruler": RULER_MM,
-        "ticks": range(TICK_MM * math.ceil(left / TICK_MM), right + 1, TICK_MM),
-        "slower": SHOWN_S / shortest,
+        "lanes": lanes, "left": left, "width": right - left,
+        "tops": [math.floor(one.low[1] - EDGE_MM) for one in lanes], "ruler": RULER_MM,
+        "ticks": range(TICK_MM * math.ceil(left / TICK_MM), right + 1, TICK_MM), "slower": SHOWN_S / shortest,
         "data": json.dumps(data, separators=(",", ":")),
-    }
+    }  # fmt: skip
 
 
 def _outlines(robot: Robot) -> dict[str, list[tuple[float, Array, str]]]:

@@ -62,12 +62,9 @@ class Prediction(ByValue):
         noise = drawn.standard_t(STUDENT_T_DEGREES, count) if datum.what == "distance" else drawn.standard_normal(count)
         seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
         return {
-            "what": datum.what,
-            "as": reading,
-            "measured": datum.value,
-            "predicted": np.quantile(seen, QUANTILES).tolist(),
-            "below_share": float((seen < datum.value).mean()),
-        }
+            "what": datum.what, "as": reading, "measured": datum.value,
+            "predicted": np.quantile(seen, QUANTILES).tolist(), "below_share": float((seen < datum.value).mean()),
+        }  # fmt: skip
 
 
 @check_arguments

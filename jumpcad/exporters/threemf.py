@@ -116,14 +116,10 @@ def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes
 def _object(number: int, part: Printable, copies: int) -> dict[str, Any]:
     """Return a part as an object; nine digits hold a 32-bit float exactly."""
     return {
-        "number": number,
-        "name": escape(allowed(part.name)),
-        "copies": copies,
-        "brim_mm": brim_mm(part),
+        "number": number, "name": escape(allowed(part.name)), "copies": copies, "brim_mm": brim_mm(part),
         "vertices": _lines('<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.mesh.vertices.astype(np.float32)),
-        "triangles": _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces),
-        "last": len(part.mesh.faces) - 1,
-    }
+        "triangles": _lines('<triangle v1="%d" v2="%d" v3="%d"/>\n', part.mesh.faces), "last": len(part.mesh.faces) - 1,
+    }  # fmt: skip
 
 
 def _in_words(plates: Sequence[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:

@@ -142,14 +142,10 @@ def with_lengths(mechanism: Robot, design: Design) -> Robot:
     bodies[FOOT] = _moved(bodies[FOOT], lambda sphere: eye if sphere.centre_m[0] > middle_m else toe)
     bodies[BODY] = _moved(bodies[BODY], lambda sphere: math.copysign(half, half * float(sphere.centre_m[0])))
     return replace(
-        mechanism,
-        design=design,
-        bodies=bodies,
-        joints=joints,
-        loops=(loop,),
+        mechanism, design=design, bodies=bodies, joints=joints, loops=(loop,),
         springs=(replace(spring, wind_rad=design.compression_rad),),
         roller_off=off and replace(off, leg_rad=off.leg_rad + spring.wind_rad - design.compression_rad),
-    )
+    )  # fmt: skip
 
 
 def with_length_errors(design: Design, error_mm: Array) -> Design:

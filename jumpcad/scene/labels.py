@@ -62,14 +62,10 @@ HEAD_PX = 9.0
 
 
 def labelled(
-    picture: Image.Image,
-    names: Sequence[str],
-    at_px: Array | Sequence[Array] = (),
-    place_px: Array | Sequence[Array] = (),
-    margin_px: int = 0,
-    turns_px: Sequence[Array] = (),
+    picture: Image.Image, names: Sequence[str], at_px: Array | Sequence[Array] = (),
+    place_px: Array | Sequence[Array] = (), margin_px: int = 0, turns_px: Sequence[Array] = (),
     compass: Mapping[str, Array] = MappingProxyType({}),
-) -> Image.Image:
+) -> Image.Image:  # fmt: skip
     """Return a picture between two margins with labels.
 
     Parameters

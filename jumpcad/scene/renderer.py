@@ -65,13 +65,9 @@ class Renderer:
             self._things.append(ShadedMesh(vertices * MM, normals, faces, creases(mesh) * MM, colour))
 
     def picture(
-        self,
-        poses: Sequence[Array | None],
-        size: tuple[int, int],
-        view: View,
-        frame_m: Array,
+        self, poses: Sequence[Array | None], size: tuple[int, int], view: View, frame_m: Array,
         pale: Sequence[bool] | None = None,
-    ) -> Image.Image:
+    ) -> Image.Image:  # fmt: skip
         """Return a picture.
 
         Parameters

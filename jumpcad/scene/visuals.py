@@ -1,4 +1,4 @@
-"""The visible parts of a robot: every copy of every part with its mesh, its pose and its colour, and how far they reach.
+"""The visible parts of a robot: every copy of every part with its mesh, its pose and its colour; how far they reach.
 
 Every picture and every exported file takes its meshes and colours from here. A page that shows a robot while it is
 changed takes the walls of a stack's slabs and the ends of them that lie bare: the same picture as the solid's mesh,
@@ -36,20 +36,12 @@ PRINTED_COLOURS: dict[str, Colour] = {
 }
 """Colours by the role of a printed part."""
 BOUGHT_COLOURS: dict[str, Colour] = {
-    "cable tie": (0.16, 0.16, 0.17),
-    "foam tape": (0.92, 0.91, 0.86),
-    "hook-and-loop": (0.16, 0.16, 0.17),
-    "torsion spring": (0.30, 0.33, 0.38),
-    "gear motor": (0.85, 0.70, 0.30),
-    "bearing": (0.72, 0.74, 0.77),
-    "steel rod": (0.66, 0.68, 0.71),
-    "screw": (0.22, 0.23, 0.25),
-    "standoff": (0.96, 0.96, 0.93),
-    "battery": (0.20, 0.42, 0.85),
-    "controller": (0.13, 0.50, 0.28),
-    "driver": (0.50, 0.20, 0.50),
+    "cable tie": (0.16, 0.16, 0.17), "foam tape": (0.92, 0.91, 0.86), "hook-and-loop": (0.16, 0.16, 0.17),
+    "torsion spring": (0.30, 0.33, 0.38), "gear motor": (0.85, 0.70, 0.30), "bearing": (0.72, 0.74, 0.77),
+    "steel rod": (0.66, 0.68, 0.71), "screw": (0.22, 0.23, 0.25), "standoff": (0.96, 0.96, 0.93),
+    "battery": (0.20, 0.42, 0.85), "controller": (0.13, 0.50, 0.28), "driver": (0.50, 0.20, 0.50),
     "regulator": (0.13, 0.30, 0.50),
-}
+}  # fmt: skip
 """Colours by a word in a bought part's article or name; the first match counts."""
 STEEL: Colour = (0.62, 0.64, 0.67)
 

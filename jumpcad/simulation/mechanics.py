@@ -126,11 +126,8 @@ def loaded_state(mechanism: Mechanism) -> State:
     still = np.zeros((len(poses), 3))
     return State(
         np.stack([pose[:3, 3] + np.einsum("ij,j->i", pose[:3, :3], at) for pose, at in zip(poses, com, strict=True)]),
-        np.stack([pose[:3, :3] for pose in poses]),
-        still,
-        still,
-        (-mechanism.spring.wind_rad,),
-    )
+        np.stack([pose[:3, :3] for pose in poses]), still, still, (-mechanism.spring.wind_rad,),
+    )  # fmt: skip
 
 
 Points = Mapping[str, tuple[Complex, Array]]

@@ -167,31 +167,19 @@ def planar_model(mechanism: Mechanism, settings: Settings, pins_nm: float | None
     sole, sole_radius = _spheres(foot)
     belly, belly_radius = _spheres(body)
     return PlanarModel(
-        l1_m=design.l1_mm / 1000.0,
-        l2_m=design.l2_mm / 1000.0,
-        l3_m=design.l3_mm / 1000.0,
-        l4_m=design.l4_mm / 1000.0,
-        rest_rad=math.radians(design.rest_angle_deg),
-        total_kg=mechanism.mass_kg,
+        l1_m=design.l1_mm / 1000.0, l2_m=design.l2_mm / 1000.0, l3_m=design.l3_mm / 1000.0, l4_m=design.l4_mm / 1000.0,
+        rest_rad=math.radians(design.rest_angle_deg), total_kg=mechanism.mass_kg,
         mass_kg=tuple(body.mass_kg for body in bodies),
         com_m=tuple(complex(body.com_m[0], body.com_m[2]) for body in bodies),
-        inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies),
-        gravity_m_s2=settings.gravity_m_s2,
-        pull_m_s2=complex(0.0, -settings.gravity_m_s2),
-        stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
-        preload_rad=spring.preload_rad,
-        one_sided_spring=spring.one_sided,
-        damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
-        joint_friction_nm=settings.joint_friction_nm,
+        inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies), gravity_m_s2=settings.gravity_m_s2,
+        pull_m_s2=complex(0.0, -settings.gravity_m_s2), stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
+        preload_rad=spring.preload_rad, one_sided_spring=spring.one_sided,
+        damping_nms_per_rad=rubs.joint_damping_nms_per_rad, joint_friction_nm=settings.joint_friction_nm,
         pins_nm=pin_torque_nm(mechanism, rubs.pin) if pins_nm is None else pins_nm,
         stop_rad=float(stop.angle_rad) if stop else math.inf,
-        stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,
-        friction=rubs.contact(foot.surface),
-        sole_m=sole,
-        sole_radius_m=sole_radius,
-        belly_m=belly,
-        belly_radius_m=belly_radius,
-    )
+        stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0, friction=rubs.contact(foot.surface),
+        sole_m=sole, sole_radius_m=sole_radius, belly_m=belly, belly_radius_m=belly_radius,
+    )  # fmt: skip
 
 
 def _spheres(body: Body) -> tuple[tuple[complex, ...], tuple[float, ...]]:
