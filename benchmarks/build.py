@@ -48,7 +48,7 @@ def once(name: str) -> dict[str, float]:
     from jumpcad.bundle.renders import all_pictures
     from jumpcad.design import load_design
     from jumpcad.exporters.registry import chosen
-    from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.mechanism.variants import capsule_robot
     from jumpcad.search.study.pool import InProcess
 
     passed("imports")

@@ -16,8 +16,8 @@ from jumpcad import published
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files import template_names
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Jump, Settings, load_settings, simulate
 from jumpcad.simulation.bullet import BulletEngine
 from jumpcad.simulation.run import Run

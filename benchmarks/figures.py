@@ -24,14 +24,14 @@ from start import children_cpu_s
 from jumpcad import published
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
-from jumpcad.bundle.springs import arms_off_deg, early_torque_share, least_energy_share, torque_shares
+from jumpcad.bundle.facts import arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.collision.stable_poses import share_on_feet
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names
 from jumpcad.landing.landing import distances_m, land, share_righted
 from jumpcad.landing.series import jumps
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.paper.reproduction import PUBLISHED_RESULTS, PublishedResult
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
@@ -251,7 +251,7 @@ def of_best_printable() -> dict[str, str]:
 
 
 def of_springs() -> dict[str, str]:
-    """Return how far accepted springs may be off on the templates, and what that does (`jumpcad.bundle.springs`)."""
+    """Return how far accepted springs may be off on the templates, and what that does (`jumpcad.bundle.facts`)."""
     robots = [built(name)[0] for name in ROBOTS]
     more = ", ".join(f"{100.0 * (torque_shares(robot)[1] - 1.0):.0f}" for robot in robots)
     wider = sorted({arms_off_deg(robot)[1] for robot in robots})

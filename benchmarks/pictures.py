@@ -22,7 +22,7 @@ import numpy as np
 from PIL import Image
 
 from jumpcad.building import build
-from jumpcad.bundle.motion_gif import motion_gif
+from jumpcad.bundle.renders import motion_gif
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.cli.commands import run
 from jumpcad.design import load_design

@@ -21,9 +21,9 @@ from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.files import template_names
 from jumpcad.findings import errors
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import load_settings, simulate
 from jumpcad.simulation.planar import PlanarWorld
 

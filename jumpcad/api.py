@@ -5,14 +5,13 @@ from pathlib import Path
 from jumpcad import notebook
 from jumpcad.arguments import check_arguments
 from jumpcad.bundle.export import export as export_robot
-from jumpcad.bundle.inputs import robot_of
-from jumpcad.bundle.manifest import Bundle
+from jumpcad.bundle.manifest import Bundle, robot_of
 from jumpcad.checks import check as check_robot
 from jumpcad.design import Design
 from jumpcad.evaluation import evaluate
 from jumpcad.findings import Finding
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism, Multibody
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Settings
 from jumpcad.simulation import Jump

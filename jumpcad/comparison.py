@@ -11,9 +11,9 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
-from jumpcad.bundle.inputs import robot_of
-from jumpcad.bundle.lanes import lane, lanes_values
 from jumpcad.bundle.limits import limits_of, tightest, used, with_verdict
+from jumpcad.bundle.manifest import robot_of
+from jumpcad.bundle.viewer import lane, lanes_values
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.face import __version__

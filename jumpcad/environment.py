@@ -11,7 +11,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
-from jumpcad.bundle.inputs import robot_of
+from jumpcad.bundle.manifest import robot_of
 from jumpcad.bundle.renders import JUMP_VIEW, corners_of
 from jumpcad.bundle.variants import variants
 from jumpcad.design import Design
@@ -22,7 +22,7 @@ from jumpcad.landing.landing import DROP_M, scattered_floor
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import aimed
-from jumpcad.scene.floor import with_floor
+from jumpcad.scene.labels import with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained, pose_at

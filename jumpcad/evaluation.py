@@ -16,7 +16,7 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine
 from jumpcad.transforms import ByValue
@@ -191,7 +191,7 @@ def evaluate(
         If the mechanism cannot work, or there is no room for its parts; of a robot that is too weak when it is asked
         for.
     """
-    from jumpcad.bundle.inputs import inputs_of
+    from jumpcad.bundle.manifest import inputs_of
 
     design, workshop, _ = inputs_of(design, workshop)
     design, workshop = design.revalidated(), workshop.revalidated()

@@ -30,7 +30,7 @@ from jumpcad.design import Design
 from jumpcad.exporters import threemf
 from jumpcad.findings import Finding
 from jumpcad.robot.robot import Robot
-from jumpcad.solids import finish
+from jumpcad.solids import stl as stl_files
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import Workshop
 
@@ -58,20 +58,20 @@ def of_all_workers(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> 
 def judged_once(of_all_workers: Path) -> Iterator[None]:
     """Judge equal shapes once, simulate and draw equal robots once, and write equal plates once."""
     seen: dict[object, Any] = {}
-    faults = once_of(seen, finish.faults, lambda stl: hashlib.sha256(stl).digest())
+    faults = once_of(seen, stl_files.faults, lambda stl: hashlib.sha256(stl).digest())
     undersides = once_of(
         seen, printability._undersides, lambda drawing, *shop: (drawing.shape, *(one.model_dump_json() for one in shop))
     )
     with pytest.MonkeyPatch.context() as patch:
         compiled_by_one(patch, of_all_workers)
-        for module in (finish, printability):
+        for module in (stl_files, printability):
             patch.setattr(module, "faults", faults)
         patch.setattr(printability, "_undersides", undersides)
         patch.setattr(threemf, "thumbnail", once_of(seen, threemf.thumbnail, plate_key))
         patch.setattr(threemf, "write_threemf", once_of(seen, threemf.write_threemf, threemf_key))
         for name in ("uncertainty_of", "renders"):
             patch.setattr(bundle_export, name, once_of(seen, getattr(bundle_export, name), robot_key))
-        coupon = once_of(seen, bundle_export.coupon_files, lambda shop, _, pictures: (shop.to_toml(), pictures))
+        coupon = once_of(seen, bundle_export.coupon_files, lambda shop, _, *pictures: (shop.to_toml(), pictures))
         patch.setattr(bundle_export, "coupon_files", coupon)
         patch.setattr(limits, "check", once_of(seen, limits.check, robot_key))
         yield

@@ -10,7 +10,7 @@ from jumpcad.design import PARAMETERS, Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import evaluate
 from jumpcad.files import template_names
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.workshop import Workshop, load_workshop
 

@@ -10,7 +10,7 @@ from support.flights import com_x_m
 from support.studies import IDENTITY, trials
 
 import jumpcad
-from jumpcad.bundle.lanes import lane, lanes_values
+from jumpcad.bundle.viewer import lane, lanes_values
 from jumpcad.errors import JumpcadError
 from jumpcad.search.study.store import StudyStore
 from jumpcad.settings import Settings

@@ -25,7 +25,7 @@ from jumpcad.exporters.urdf import write_urdf
 from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import in_metres

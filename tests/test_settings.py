@@ -8,7 +8,7 @@ from support.machines import rubbing
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.settings import coefficients, takeoff_clearance_m
 from jumpcad.simulation import Settings, load_settings
 

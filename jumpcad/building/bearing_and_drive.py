@@ -20,7 +20,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FRONT_LINK, MAIN_LEG, Body, Spring
-from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.mechanism.planar import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.sizing import RESERVE, TYPICAL_BODY, Sections, sections
 from jumpcad.robot.springs.place import PLATE_PINS_RAD

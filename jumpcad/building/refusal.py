@@ -8,10 +8,9 @@ from jumpcad.design import Design
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.findings import Finding, errors
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import statics_findings
 from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.mechanism.variants import capsule_robot, with_spring_factor
 from jumpcad.settings import Settings
 from jumpcad.workshop import Workshop
 

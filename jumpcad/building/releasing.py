@@ -7,7 +7,7 @@ import numpy as np
 from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.drive.release import MovingParts, Release, release
 from jumpcad.mechanism.model import Body, Spring
-from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.mechanism.planar import reflected_mass
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart

@@ -48,12 +48,9 @@ Stamp = tuple[int, int]
 
 
 def write_folder(
-    folder: str | Path,
-    name: str,
-    facts: Mapping[str, Any],
-    contents: Iterable[tuple[str, str | bytes]],
+    folder: str | Path, name: str, facts: Mapping[str, Any], contents: Iterable[tuple[str, str | bytes]],
     force: bool = False,
-) -> Bundle:
+) -> Bundle:  # fmt: skip
     """Write files and the manifest that lists them, in place of those of an older bundle.
 
     Parameters

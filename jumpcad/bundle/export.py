@@ -17,18 +17,16 @@ from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.bundle.guide.page import write_page
-from jumpcad.bundle.inputs import DESIGN, WORKSHOP
 from jumpcad.bundle.limits import limits_of
-from jumpcad.bundle.manifest import Bundle
+from jumpcad.bundle.manifest import DESIGN, WORKSHOP, Bundle
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.weigh_sheet import weigh_sheet
 from jumpcad.collision.stable_poses import share_on_feet
-from jumpcad.coupon.contents import coupon_files, coupon_pieces
+from jumpcad.coupon.contents import coupon_files, coupon_masses, coupon_pieces
 from jumpcad.errors import CannotBuildError
-from jumpcad.exporters.animation import animated
-from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.glb import animated, write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
 from jumpcad.landing.series import Series
@@ -36,17 +34,13 @@ from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
 from jumpcad.simulation import Jump, headline
 from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
-from jumpcad.workshop import varied
+from jumpcad.workshop import Workshop, varied
 
 
 def export(
-    robot: Robot,
-    folder: str | Path,
-    pictures: bool = True,
-    step: bool = False,
-    force: bool = False,
+    robot: Robot, folder: str | Path, pictures: bool = True, step: bool = False, force: bool = False,
     ros2: bool = False,
-) -> Bundle:
+) -> Bundle:  # fmt: skip
     """Write a robot's bundle.
 
     Parameters
@@ -121,14 +115,9 @@ def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None =
 
 
 def _page(
-    robot: Robot,
-    jump: Jump,
-    seen: Mapping[str, bytes],
-    glb: bytes | None,
-    files: Iterable[str],
-    sure: Uncertainty | None,
-    series: Series | None = None,
-) -> str:
+    robot: Robot, jump: Jump, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str],
+    sure: Uncertainty | None, series: Series | None = None,
+) -> str:  # fmt: skip
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)
 
@@ -161,3 +150,11 @@ def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
             "surface": robot.workshop.ground.surface,
         },
     }
+
+
+def export_coupon(workshop: Workshop, folder: str | Path, force: bool = False) -> Bundle:
+    """Write the coupon of a workshop."""
+    require_place(folder)
+    made = coupon_pieces(workshop)
+    files = ((WORKSHOP, workshop.to_toml()), *coupon_files(workshop, made))
+    return write_folder(folder, "coupon", coupon_masses(made, workshop), files, force)

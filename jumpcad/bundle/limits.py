@@ -39,18 +39,13 @@ def limit_values(findings: Sequence[Finding]) -> dict[str, Any]:
     without = [finding for finding in kept if finding.use is None]
     just_kept = [finding for finding in without if used(finding) == JUST]
     return {
-        "violated": violated,
-        "tightest": tightest(findings),
-        "violation": violation(findings),
+        "violated": violated, "tightest": tightest(findings), "violation": violation(findings),
         "violated_class": "error" if errors(violated) else "warning",
-        "kept": [finding for finding in kept if finding.use is not None],
-        "just_kept": just_kept,
-        "without": without[len(just_kept) :],
-        "count": counted_limits(findings),
-        "uncounted": sum(not finding.counts and not finding.is_note for finding in findings),
-        "used": used,
+        "kept": [finding for finding in kept if finding.use is not None], "just_kept": just_kept,
+        "without": without[len(just_kept) :], "count": counted_limits(findings),
+        "uncounted": sum(not finding.counts and not finding.is_note for finding in findings), "used": used,
         "width": lambda finding: 100.0 * min(finding.use, WIDEST) / WIDEST,
-    }
+    }  # fmt: skip
 
 
 def violation(findings: Sequence[Finding]) -> str:

@@ -1,4 +1,7 @@
-"""A bundle's manifest: reads it, and compares the bundle's files with it. No link is followed."""
+"""A bundle read: its manifest, with which its files are compared, and design and workshop, which build it again.
+
+No link is followed.
+"""
 
 import os
 import re
@@ -10,12 +13,16 @@ from typing import Annotated, Any, NoReturn
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StrictFloat, StrictInt
 
+from jumpcad.building import build
+from jumpcad.design import Design, load_design
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.files import read_json
+from jumpcad.files import read_json, read_toml, template_names
 from jumpcad.files.outputs import sha256
 from jumpcad.files.records import Text
 from jumpcad.parts.mass_line import MassLine
+from jumpcad.robot.robot import Robot
+from jumpcad.workshop import Workshop, load_workshop
 
 MANIFEST = "manifest.json"
 FORMAT = 1
@@ -205,3 +212,48 @@ def above(path: str) -> list[str]:
 def few(paths: Sequence[str]) -> str:
     """Return the first of several paths as text, and how many more there are."""
     return ", ".join(paths[:NAMED]) + (f" and {len(paths) - NAMED} more" if len(paths) > NAMED else "")
+
+
+DESIGN = "design.toml"
+WORKSHOP = "workshop.toml"
+
+
+def robot_of(subject: Design | str | Path, workshop: Workshop | None = None, name: str | None = None) -> Robot:
+    """Return the printed robot of what `inputs_of` takes, under its own name unless another is given."""
+    design, shop, own_name = inputs_of(subject, workshop)
+    return build(design, shop, own_name if name is None else name)
+
+
+def inputs_of(subject: Design | str | Path, workshop: Workshop | None = None) -> tuple[Design, Workshop, str]:
+    """Return design, workshop and name of a design, a template, a design file or a bundle, as the command line does."""
+    if isinstance(subject, Design):
+        return subject, workshop or load_workshop(subject.workshop_name), "robot"
+    if os.path.isdir(subject) and str(subject) not in template_names("robots"):
+        bundle = open_bundle(subject)
+        if workshop is not None:
+            raise JumpcadError(f"{subject}: is a bundle, which has a workshop of its own; leave the workshop out")
+        return kept_design(bundle), kept_workshop(bundle), bundle.name
+    design = load_design(subject)
+    return design, workshop or load_workshop(design.workshop_name), Path(subject).name.removesuffix(".toml")
+
+
+def kept_robot(bundle: Bundle) -> Robot:
+    """Return the robot of a bundle, built again; raise what `kept_design`, `kept_workshop` and `build` raise."""
+    return build(kept_design(bundle), kept_workshop(bundle), bundle.name)
+
+
+def kept_design(bundle: Bundle) -> Design:
+    """Return the design of a bundle."""
+    return load_design(bundle.file(DESIGN))
+
+
+def kept_workshop(bundle: Bundle) -> Workshop:
+    """Return the workshop of a bundle."""
+    path = bundle.file(WORKSHOP)
+    data, _ = read_toml(path)
+    for key in ("base", "printer"):
+        if isinstance(data.get(key), str):
+            raise JumpcadError(
+                f"{path}: {key} = {data[key]!r}: a bundle's workshop is complete and names no other file"
+            )
+    return load_workshop(path)

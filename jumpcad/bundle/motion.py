@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.drive.motor import lift_s
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.animation import BodyMotion
+from jumpcad.exporters.glb import BodyMotion
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
@@ -70,15 +70,12 @@ def _columns(robot: Robot, moments: list[PhasePose], lengths_s: Mapping[str, flo
     """Return moments as columns, each phase shown as long as said."""
     real, shown, shift = _times(moments, lengths_s)
     return {
-        "show_s": shown,
-        "time_s": real,
-        "phase": [moment.phase for moment in moments],
-        "phases": shift,
+        "show_s": shown, "time_s": real, "phase": [moment.phase for moment in moments], "phases": shift,
         "cam_rad": [round(moment.cam_rad, TURN_DIGITS) for moment in moments],
         "gear_rad": [round(moment.gear_rad, TURN_DIGITS) for moment in moments],
         "com_m": [(_com(robot, one)[[0, 2]].round(POSITION_DIGITS) + 0.0).tolist() for one in moments],
         "frames": {name: [_seven(moment.poses[name]) for moment in moments] for name in BODY_NAMES},
-    }
+    }  # fmt: skip
 
 
 def series_motion(robot: Robot, series: Series) -> dict[str, Any]:

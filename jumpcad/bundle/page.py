@@ -64,14 +64,9 @@ def compared_of(design: Design) -> Compared | None:
 
 
 def write_report(
-    robot: Robot,
-    pictures: Mapping[str, bytes],
-    jump: Jump,
-    glb: bytes | None = None,
-    files: Iterable[str] = (),
-    sure: Uncertainty | None = None,
-    series: Series | None = None,
-) -> str:
+    robot: Robot, pictures: Mapping[str, bytes], jump: Jump, glb: bytes | None = None, files: Iterable[str] = (),
+    sure: Uncertainty | None = None, series: Series | None = None,
+) -> str:  # fmt: skip
     """Return the page.
 
     Parameters
@@ -90,19 +85,12 @@ def write_report(
         Recorded jumps in a row, to be shown instead of the one jump.
     """
     values = {
-        "jump": jump,
-        "broken": errors(jump.findings),
-        "energy_words": ACCOUNT,
-        "band": efficiency_band(),
-        "sure": sure,
-        "sure_figures": FIGURES,
-        "beside": compared_of(robot.design),
+        "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(), "sure": sure,
+        "sure_figures": FIGURES, "beside": compared_of(robot.design),
         "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
-        "viewer": None if glb is None else viewer_values(robot, jump, glb, series),
-        "series": series,
-        "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"),
-        "version": __version__,
-    }
+        "viewer": None if glb is None else viewer_values(robot, jump, glb, series), "series": series,
+        "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"), "version": __version__,
+    }  # fmt: skip
     values |= robot_values(robot) | file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
     return allowed(fill("report/report.html.j2", values))
 
@@ -110,14 +98,10 @@ def write_report(
 def robot_values(robot: Robot) -> dict[str, Any]:
     """Return what the page says of printing, parts and figures."""
     return {
-        "robot": robot,
-        "train": robot.layout.drive.train,
-        "spring_deg": math.degrees(robot.spring.wind_rad),
-        "parameters": type(robot.design).model_fields,
-        "unit_of_key": unit_of_key,
-        "bill": bill_of_materials(robot),
+        "robot": robot, "train": robot.layout.drive.train, "spring_deg": math.degrees(robot.spring.wind_rad),
+        "parameters": type(robot.design).model_fields, "unit_of_key": unit_of_key, "bill": bill_of_materials(robot),
         "euros": euros,
-    }
+    }  # fmt: skip
 
 
 def file_values(files: Iterable[str]) -> dict[str, Any]:

@@ -1,19 +1,20 @@
-"""Pictures of a robot: at rest, loaded (`compressed` in file names), exploded, its assembly steps and its jump."""
+"""Pictures of a robot: at rest, loaded (`compressed` in file names), exploded, its steps, jump and whole motion."""
 
 import io
 from collections.abc import Sequence
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from PIL import Image
+from scipy.spatial.transform import Rotation
 
 from jumpcad.bundle.motion import recorded_poses
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import View, aimed
-from jumpcad.scene.floor import STRIPE_M, with_floor
-from jumpcad.scene.labels import labelled
+from jumpcad.scene.labels import STRIPE_M, labelled, with_floor
 from jumpcad.scene.renderer import COMPRESSION, Renderer, paletted, png_of
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
@@ -176,3 +177,53 @@ def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:
     stream = io.BytesIO()
     first.save(stream, "GIF", save_all=True, append_images=rest, duration=frame_ms, loop=0)
     return stream.getvalue()
+
+
+MOTION_SIZE = (640, 330)
+MOTION_VIEW = View(yaw_deg=-72.0, pitch_deg=9.0)
+FRAME_S = 0.1
+TITLES = {"winding": "winding", "drop": "release", "push-off": "push-off", "flight": "flight", "landing": "landing"}
+
+
+def motion_gif(
+    robot: Robot, data: dict[str, Any], size: tuple[int, int] = MOTION_SIZE, view: View = MOTION_VIEW
+) -> bytes:
+    """Return the animated picture of `viewer_data`, one frame each tenth of a second that the viewer shows."""
+    things = visuals(robot)
+    turning = {one["node"]: one for one in data["turning"]}
+    times = np.array(data["show_s"])
+    moments = np.searchsorted(times, np.arange(0.0, times[-1], FRAME_S), side="right") - 1
+    poses = []
+    for moment in moments:
+        bodies = {name: _pose(frames[moment]) for name, frames in data["frames"].items()}
+        poses.append(
+            [
+                chained(chained(bodies[thing.body], _turned(turning.get(thing.name), data, moment)), thing.T_body_mesh)
+                for thing in things
+            ]
+        )
+    corners = np.concatenate([corners_of(things, one) for one in poses])
+    camera = aimed(corners, view, size[0] / size[1])
+    scene = Renderer([(thing.mesh, thing.colour) for thing in things])
+    pictures = []
+    for moment, one in zip(moments, poses, strict=True):
+        phase = data["phase"][moment]
+        name, _, number = phase.partition(" ")
+        title = TITLES[name] + (f", jump {number}" if number else "")
+        caption = f"{title}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
+        pictures.append(with_floor(scene.picture(one, size, view, corners), camera, corners, caption))
+    return gif(pictures, round(1000.0 * FRAME_S))
+
+
+def _pose(seven: Sequence[float]) -> Array:
+    return pose_at(Rotation.from_quat(seven[3:]).as_matrix(), np.array(seven[:3]))
+
+
+def _turned(axis: dict[str, Any] | None, data: dict[str, Any], moment: int) -> Array:
+    """Return the turn (4, 4) of what the motor moves, about its axis across the body."""
+    if axis is None:
+        return np.eye(4)
+    angle = axis["per_cam"] * data["cam_rad" if axis["node"] == "cam" else "gear_rad"][moment]
+    turn = Rotation.from_euler("y", angle).as_matrix()
+    centre = np.array([axis["axis_m"][0], 0.0, axis["axis_m"][1]])
+    return pose_at(turn, centre - turn @ centre)

@@ -12,8 +12,7 @@ from manifold3d import Manifold, Mesh64
 from jumpcad.building.bom import BilledPlate, bill_of_facts, write_bom
 from jumpcad.bundle.atomic_write import change_files
 from jumpcad.bundle.guide.markdown import with_bill
-from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
-from jumpcad.bundle.manifest import Bundle, few, open_bundle, verify
+from jumpcad.bundle.manifest import WORKSHOP, Bundle, few, kept_workshop, open_bundle, verify
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version

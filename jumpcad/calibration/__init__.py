@@ -3,8 +3,7 @@
 from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements, load_measurements
 from jumpcad.calibration.posterior import CalibrationPosterior, calibrate
-from jumpcad.calibration.prediction import predicted_jump
-from jumpcad.calibration.settings_file import elsewhere, settings_toml
+from jumpcad.calibration.prediction import elsewhere, predicted_jump, settings_toml
 from jumpcad.calibration.subject import Subject, load_subject
 
 __all__ = [

@@ -128,12 +128,9 @@ def calibrate(files: Sequence[str | Path], seed: int = 0, landing: bool = False)
 
 
 def sampled(
-    model: CalibrationModel,
-    seed: int = 0,
-    steps: int = STEPS,
-    most_steps: int = MOST_STEPS,
+    model: CalibrationModel, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS,
     walkers_each: int = WALKERS_EACH,
-) -> CalibrationPosterior:
+) -> CalibrationPosterior:  # fmt: skip
     """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
 
     `walkers_each` is the number of walkers per parameter; `steps` is the first length of the chains.
@@ -151,12 +148,9 @@ def sampled(
     dimension = len(model.parameters)
     walkers = 2 * (walkers_each * dimension // 2)
     sampler = emcee.EnsembleSampler(
-        walkers,
-        dimension,
-        model.log_probability,
-        vectorize=True,
+        walkers, dimension, model.log_probability, vectorize=True,
         moves=[(emcee.moves.DEMove(), 0.8), (emcee.moves.DESnookerMove(), 0.2)],
-    )
+    )  # fmt: skip
     generator = np.random.default_rng(seed)
     start = _start(model, walkers, generator)
     state = emcee.State(start, random_state=np.random.RandomState(seed).get_state())  # what emcee takes
@@ -205,12 +199,8 @@ def _residual(datum: Datum, predicted: Predicted) -> dict[str, Any]:
     middle = float(np.median(value))
     deviation = float(np.median(predicted.deviation(datum, likeliest, value)))
     return {
-        "robot": datum.subject,
-        "what": datum.what,
-        "of": datum.of,
-        "measured": datum.value,
-        "predicted": np.quantile(value, QUANTILES).tolist(),
-        "as": likeliest,
+        "robot": datum.subject, "what": datum.what, "of": datum.of, "measured": datum.value,
+        "predicted": np.quantile(value, QUANTILES).tolist(), "as": likeliest,
         "readings": dict(zip(datum.readings, share.tolist(), strict=True)),
         "off_by_deviations": (datum.value - middle) / deviation,
-    }
+    }  # fmt: skip

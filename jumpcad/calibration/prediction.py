@@ -1,5 +1,6 @@
-"""Prediction for a robot that was not calibrated on: its jump with an interval, beside its measurements."""
+"""What a calibration says of other jumps: those of a robot that was not calibrated on, and settings of simulations."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,8 +10,11 @@ import numpy as np
 from jumpcad.arguments import check_arguments
 from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Datum, Predicted, predict
 from jumpcad.calibration.posterior import CalibrationPosterior
-from jumpcad.calibration.priors import QUANTILES
+from jumpcad.calibration.priors import QUANTILES, WEIGHED_SHARE
 from jumpcad.calibration.subject import Subject
+from jumpcad.errors import JumpcadError
+from jumpcad.files import to_toml
+from jumpcad.files.outputs import sealed
 from jumpcad.transforms import Array, ByValue
 
 
@@ -58,12 +62,9 @@ class Prediction(ByValue):
         noise = drawn.standard_t(STUDENT_T_DEGREES, count) if datum.what == "distance" else drawn.standard_normal(count)
         seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
         return {
-            "what": datum.what,
-            "as": reading,
-            "measured": datum.value,
-            "predicted": np.quantile(seen, QUANTILES).tolist(),
-            "below_share": float((seen < datum.value).mean()),
-        }
+            "what": datum.what, "as": reading, "measured": datum.value,
+            "predicted": np.quantile(seen, QUANTILES).tolist(), "below_share": float((seen < datum.value).mean()),
+        }  # fmt: skip
 
 
 @check_arguments
@@ -82,3 +83,60 @@ def predicted_jump(posterior: CalibrationPosterior, subject: Subject, seed: int 
         if own or one.key not in values:
             values[one.key] = one.prior.at(generator.standard_normal(draws))
     return Prediction(subject, values, generator)
+
+
+SAVED = 100
+"""Draws in the file."""
+DIGITS = 4
+MOST_DEVIATIONS = 10.0
+"""By how many standard deviations a measurement may be off: beyond, it is a mistake, not an error; judgement."""
+LIMITS = {"spring_efficiency": (0.1, 1.5), "pin_friction": (0.0, 2.0)}
+"""What settings take."""
+
+
+@check_arguments
+def settings_toml(posterior: CalibrationPosterior) -> str:
+    """Return the settings file of a calibration.
+
+    Floor, masses and rate of the springs are not settings: they belong to workshop and design, see `elsewhere`.
+    """
+    for one in posterior.residuals():
+        if abs(off := one["off_by_deviations"]) > MOST_DEVIATIONS:
+            unit = {"battery": "J", "speed": "m/s", "angle": "°"}.get(one["what"], "m")
+            raise JumpcadError(
+                f"{one['robot']}: {one['what']} = {one['measured']:.3g} {unit} is off by {off:+.1f} standard "
+                f"deviations, more than {MOST_DEVIATIONS:g}: no settings are written: check it, or leave it out"
+            )
+    values = {key: np.clip(np.round(posterior.values[key], DIGITS), *limits) for key, limits in LIMITS.items()}
+    names = ", ".join(subject.name for subject in posterior.model.subjects)
+    comment = [f"# Calibrated on {names} by jumpcad calibrate: medians, and under [draws] what stays open."]
+    if "drive_efficiency" in posterior.values:
+        drive = float(np.median(posterior.values["drive_efficiency"]))
+        comment.append(f"# Drive: the battery gives what jumpcad build says of the winding, over {drive:.2f}.")
+    settings = {key: round(float(np.median(found)), DIGITS) for key, found in values.items()}
+    chosen = np.linspace(0, len(posterior.z) - 1, SAVED).astype(int)
+    draws = {key: found[chosen].tolist() for key, found in values.items()}
+    return sealed("\n".join(comment) + "\n" + to_toml({**settings, "draws": draws}))
+
+
+def elsewhere(posterior: CalibrationPosterior) -> Iterator[str]:
+    """Yield where what was found of one robot is to be written: its parts, weight, tested floor, springs' rate."""
+    for subject in posterior.model.subjects:
+        name, robot, weighed = subject.name, subject.robot, subject.measured.mass
+        if weighed.parts_g:
+            parts = ", ".join(f"{part} = {grams:g}" for part, grams in weighed.parts_g.items())
+            yield f"{name}, in its workshop: [mass.weighed_g] {parts}"
+        factor, model_g = float(np.median(posterior.values[f"mass:{name}"])), 1000.0 * robot.mass_kg
+        if weighed.robot_g is not None and abs(factor - 1.0) > WEIGHED_SHARE:
+            yield (
+                f"{name}, in its workshop: [mass.weighed_g] of its parts, which are to be weighed one by one: it has "
+                f"{factor * model_g:.4g} g, by the model {model_g:.4g} g"
+            )
+        if subject.floor.shape == "lognormal":
+            key = "friction" if robot.workshop.ground.pad else "bare_friction"
+            yield f"{name}, in its workshop: [ground] {key} = {np.median(posterior.values[f'floor:{name}']):.2f}"
+        factor, stock = float(np.median(posterior.values[f"rate:{subject.pair}"])), robot.workshop.stock_spring
+        if stock is None:
+            yield f"{name}, in its design: stiffness_nmm_per_deg = {factor * robot.design.stiffness_nmm_per_deg:.3g}"
+        else:
+            yield f"{name}, in [springs.{stock.name}]: rate_nmm_per_deg = {factor * stock.rate_nmm_per_deg:.3g}"

@@ -10,12 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.building import build
-from jumpcad.calibration.contradictions import contradictions
-from jumpcad.calibration.measurements import Measurements, lengths, load_measurements
+from jumpcad.calibration.measurements import Measurements, contradictions, lengths, load_measurements
 from jumpcad.calibration.priors import FLOOR, TRAVEL_MM, Prior, modelled_mass, tested_floor, weighed_mass
 from jumpcad.calibration.surface import Surface, surface_of
-from jumpcad.calibration.tracks import read_points
-from jumpcad.calibration.video import TakeoffSeen, seen_takeoff
+from jumpcad.calibration.video import TakeoffSeen, read_points, seen_takeoff
 from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError

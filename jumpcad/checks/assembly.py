@@ -19,10 +19,9 @@ from jumpcad.robot.cage.limits import ELSEWHERE
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.outline import disc
+from jumpcad.solids.overlap import swept
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.swept import swept
-from jumpcad.steps.assembly_order import Tool
-from jumpcad.steps.assembly_steps import SIDES, MovedParts, Step, assembly_steps, travel
+from jumpcad.steps.assembly_steps import SIDES, MovedParts, Step, Tool, assembly_steps, travel
 from jumpcad.transforms import Array, chained
 
 AROUND = ("from the front", "from behind", "from above", "from below")
@@ -44,7 +43,7 @@ BASIS = {
     ),
     "tool_access": Basis(
         f"{SHARED}, of the room of every fastener's tool; length: the shorter of tool and obstacle along it",
-        "solids; tools: jumpcad/steps/assembly_order.py; tolerance: facets of circles",
+        "solids; tools: jumpcad/steps/assembly_steps.py; tolerance: facets of circles",
     ),
 }
 

@@ -17,10 +17,9 @@ from jumpcad.dimensions import OVERHANG_LINES
 from jumpcad.findings import Basis, Finding, Remedy, at_least, at_most, higher, limit, lower
 from jumpcad.parts.part import Drawing
 from jumpcad.robot.robot import Robot
-from jumpcad.solids.finish import faults
 from jumpcad.solids.outline import Region, box_around, grown, hull, union
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import faults, write_stl
 from jumpcad.workshop import Fits, Process
 
 if TYPE_CHECKING:

@@ -59,7 +59,7 @@ def build(
     from jumpcad.bundle.atomic_write import require_place
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart, require_writable
-    from jumpcad.mechanism.capsule import capsule_robot
+    from jumpcad.mechanism.variants import capsule_robot
     from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
@@ -100,8 +100,7 @@ def render(
 ) -> None:
     """Draw a robot at rest, compressed and exploded, and its jump as an animated GIF."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
-    from jumpcad.bundle.motion_gif import motion_gif
-    from jumpcad.bundle.renders import RENDERS, jump_gif, renders
+    from jumpcad.bundle.renders import RENDERS, jump_gif, motion_gif, renders
     from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
     from jumpcad.landing.series import jumps
@@ -172,8 +171,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     A design file that differs from the bundle's was edited since the build, or is another one. The dates decide, as in
     `make`: an edited file is newer than the bundle.
     """
-    from jumpcad.bundle.inputs import DESIGN
-    from jumpcad.bundle.manifest import open_bundle
+    from jumpcad.bundle.manifest import DESIGN, open_bundle
 
     try:
         bundle = open_bundle(folder)

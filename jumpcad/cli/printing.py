@@ -51,7 +51,7 @@ def coupon(
 
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
     """Write the coupon; return its folder, files and mass."""
-    from jumpcad.bundle.coupon_folder import export_coupon
+    from jumpcad.bundle.export import export_coupon
     from jumpcad.workshop import load_workshop
 
     bundle = export_coupon(load_workshop(workshop), folder, force)

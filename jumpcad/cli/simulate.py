@@ -70,8 +70,8 @@ def simulate(
     """
     from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.mechanism.capsule import capsule_robot
     from jumpcad.mechanism.model import Mechanism
+    from jumpcad.mechanism.variants import capsule_robot
     from jumpcad.robot.robot import Robot
     from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump

@@ -69,7 +69,7 @@ def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design
 
 def _design(subject: str, workshop: str | None) -> "tuple[Design, str]":
     """Return the design of a bundle, a template or a file, and its workshop; raise `JumpcadError` if there is none."""
-    from jumpcad.bundle.inputs import WORKSHOP, kept_workshop
+    from jumpcad.bundle.manifest import WORKSHOP, kept_workshop
     from jumpcad.design import load_design
     from jumpcad.workshop import own_workshop
 

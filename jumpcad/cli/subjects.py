@@ -86,7 +86,7 @@ def printed_robot(
 ) -> "Robot":
     """Return the printed robot of a bundle (built again from its inputs), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
-    from jumpcad.bundle.inputs import kept_robot
+    from jumpcad.bundle.manifest import kept_robot
     from jumpcad.design import load_design
     from jumpcad.workshop import load_workshop, own_workshop
 

@@ -32,8 +32,7 @@ from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, paletted, png_of
-from jumpcad.solids.finish import require_part
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import require_part, write_stl
 from jumpcad.transforms import Array, pose_at
 from jumpcad.workshop import Workshop
 
@@ -152,17 +151,10 @@ def coupon_values(workshop: Workshop, holes: HoleSizes) -> dict[str, Any]:
     return {
         "materials": list(workshop.materials),
         **{role: workshop.material_name(role) for role in ("gears", "body", "links")},
-        "screws": workshop.bought.retention == "nuts",
-        "axle_mm": workshop.bought.axle_mm,
-        "hole_mm": holes.axle_mm,
+        "screws": workshop.bought.retention == "nuts", "axle_mm": workshop.bought.axle_mm, "hole_mm": holes.axle_mm,
         "bearing": holes.bearing and holes.bearing.name,
-        "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger],
-        "seats": stronger,
-        "lying": [engraved(step) for step in steps_mm(holes.fits.lying_mm)],
-        "readings": READINGS,
-        "floor_n": math.ceil(floor_breaks_n(workshop)),
-        "fits": holes.fits,
-        "press_hole": engraved(holes.fits.press_mm),
-        "pegs_mm": PEGS_MM,
-        "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
-    }
+        "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger], "seats": stronger,
+        "lying": [engraved(step) for step in steps_mm(holes.fits.lying_mm)], "readings": READINGS,
+        "floor_n": math.ceil(floor_breaks_n(workshop)), "fits": holes.fits, "press_hole": engraved(holes.fits.press_mm),
+        "pegs_mm": PEGS_MM, "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
+    }  # fmt: skip

@@ -15,9 +15,8 @@ from jumpcad.drive.gear_pair import GearPair, gear_pair
 from jumpcad.drive.gears import Gear
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Shape, mesh_of, shown_mesh_of
-from jumpcad.solids.outline import Region, disc, hole, polygon, rectangle, stadium, union
+from jumpcad.solids.outline import Region, disc, engravable, hole, polygon, rectangle, stadium, text, union
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.text import engravable, text
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
 

@@ -64,14 +64,10 @@ class GearReadings(TomlTable):
 
 
 JOINT_KEYS = {
-    "m2_tap_mm": ("m2_tap_mm", TAP_STEP_MM),
-    "rib_mm": ("rib_mm", STEP_MM),
-    "lying_mm": ("lying_mm", STEP_MM),
-    "dog_sliding_mm": ("sliding_mm", STEP_MM),
-    "socket_sliding_mm": ("sliding_mm", STEP_MM),
-    "tray_sliding_mm": ("sliding_mm", STEP_MM),
-    "seat_press_mm": ("press_mm", STEP_MM),
-}
+    "m2_tap_mm": ("m2_tap_mm", TAP_STEP_MM), "rib_mm": ("rib_mm", STEP_MM), "lying_mm": ("lying_mm", STEP_MM),
+    "dog_sliding_mm": ("sliding_mm", STEP_MM), "socket_sliding_mm": ("sliding_mm", STEP_MM),
+    "tray_sliding_mm": ("sliding_mm", STEP_MM), "seat_press_mm": ("press_mm", STEP_MM),
+}  # fmt: skip
 """Readings of the joints: the fit that each determines, and the step between its three offsets."""
 
 

@@ -16,7 +16,7 @@ from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
 from jumpcad.drive.synthesis import Drive
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.model import RollerOff, Spring
-from jumpcad.mechanism.reflected import ReflectedMass
+from jumpcad.mechanism.planar import ReflectedMass
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.tables import ReleaseTable
 
@@ -48,7 +48,7 @@ BASIS = {
     "release_window": Basis(
         "play + ω·t + 3° ≤ window (°); ω unloaded cam with a full battery, t time of the push-off up to past rest, "
         "window: cam angle past the lift up to which the roller's whole path is free",
-        "energy of the push-off: jumpcad/mechanism/reflected.py; geometry of cam and roller; 3°: judgement",
+        "energy of the push-off: jumpcad/mechanism/planar.py; geometry of cam and roller; 3°: judgement",
     ),
 }
 

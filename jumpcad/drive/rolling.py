@@ -22,7 +22,7 @@ import numpy as np
 from jumpcad.drive.blows import largest_torques_nm
 from jumpcad.drive.corner import Corner
 from jumpcad.mechanism.model import Spring
-from jumpcad.mechanism.reflected import ReflectedMass
+from jumpcad.mechanism.planar import ReflectedMass
 
 LONGEST_S = 1e-4
 """Longest time step, used while the motor turns the cam slowly: a hundredth of an oscillation of leg and lever."""

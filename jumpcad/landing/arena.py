@@ -17,8 +17,8 @@ from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
-from jumpcad.simulation.ballistics import drag_m_s2, drag_per_m
 from jumpcad.simulation.engines import import_mujoco
+from jumpcad.simulation.mechanics import drag_m_s2, drag_per_m
 from jumpcad.transforms import Array, chained, pose_at, rotation_about_y
 
 QUIET_STEP_S = 0.001

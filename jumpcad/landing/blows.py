@@ -37,11 +37,8 @@ EDGE_MM = 6.0
 NOSE, TOE, CAGE = "nose", "toe", "cage"
 """Where a foot is hit, before and behind the ankle; and the rods of a cage."""
 BEARS = {
-    "front_link_buckling": NOSE,
-    "front_bar_buckling": NOSE,
-    "toe_landing": TOE,
-    "electronics_hold": "body",
-}
+    "front_link_buckling": NOSE, "front_bar_buckling": NOSE, "toe_landing": TOE, "electronics_hold": "body",
+}  # fmt: skip
 """Checks whose load is proportional to a landing's force, and the part that the force acts on."""
 
 

@@ -216,9 +216,6 @@ def _accelerations(found: _Equations, flat: bool) -> tuple[tuple[float, float], 
 def _moved(start: _State, rates: tuple[float, float], time_s: float, at: _State) -> _State:
     """Return the state a time later, with the rates and accelerations of another moment."""
     return _State(
-        start.leg_rad + time_s * at.leg_rad_s,
-        start.foot_rad + time_s * at.foot_rad_s,
-        start.leg_rad_s + time_s * rates[0],
-        start.foot_rad_s + time_s * rates[1],
-        start.pivot,
-    )
+        start.leg_rad + time_s * at.leg_rad_s, start.foot_rad + time_s * at.foot_rad_s,
+        start.leg_rad_s + time_s * rates[0], start.foot_rad_s + time_s * rates[1], start.pivot,
+    )  # fmt: skip

@@ -12,7 +12,7 @@ import numpy as np
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
-from jumpcad.mechanism.capsule import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
+from jumpcad.mechanism.variants import BODY_MASS_KG, DENSITY_KG_M3, LENGTH_PER_RADIUS
 from jumpcad.simulation.engines import import_pybullet
 
 GROUND_FRICTION = 1.5
@@ -95,17 +95,11 @@ def _geometry(design: Design) -> _Geometry:
         beta = float(np.arcsin((l3 - l2) * math.sin(rest) / l4))
         l1 = l4 * math.sin(rest - beta) / math.sin(rest)
     return _Geometry(
-        l1=l1 / 1000.0,
-        l2=l2 / 1000.0,
-        l3=l3 / 1000.0,
-        l4=l4 / 1000.0,
-        l5=l5 / 1000.0,
-        radius=max(l2, l3, l5) / LENGTH_PER_RADIUS / 1000.0,
-        rest_rad=rest,
-        beta_rad=beta,
+        l1=l1 / 1000.0, l2=l2 / 1000.0, l3=l3 / 1000.0, l4=l4 / 1000.0, l5=l5 / 1000.0,
+        radius=max(l2, l3, l5) / LENGTH_PER_RADIUS / 1000.0, rest_rad=rest, beta_rad=beta,
         compression_rad=design.compression_ratio * (rest + beta),
         toe_rad=design.ground_link_angle_deg * math.pi / 180.0,
-    )
+    )  # fmt: skip
 
 
 def _jump(bullet: ModuleType, client: int, design: Design, geometry: _Geometry) -> tuple[float, float]:
@@ -196,15 +190,9 @@ def _robot(bullet: ModuleType, client: int, geometry: _Geometry) -> int:
     )  # fmt: skip
     for link in LINKS:  # not the base, which keeps Bullet's defaults
         bullet.changeDynamics(
-            robot,
-            link,
-            lateralFriction=LATERAL_FRICTION,
-            spinningFriction=SPINNING_FRICTION,
-            rollingFriction=ROLLING_FRICTION,
-            restitution=RESTITUTION,
-            jointDamping=JOINT_DAMPING,
-            **here,
-        )
+            robot, link, lateralFriction=LATERAL_FRICTION, spinningFriction=SPINNING_FRICTION,
+            rollingFriction=ROLLING_FRICTION, restitution=RESTITUTION, jointDamping=JOINT_DAMPING, **here,
+        )  # fmt: skip
     bullet.setGravity(0.0, 0.0, -9.81, **here)
     return int(robot)
 

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from jumpcad.design import load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.paper import published
 from jumpcad.paper.published import PublishedJump
 from jumpcad.simulation import Jump, Settings, simulate

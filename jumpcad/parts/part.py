@@ -87,7 +87,7 @@ def solid_of(shape: Shape) -> Manifold:
 @lru_cache(SHAPES_KEPT)
 def mesh_of(shape: Shape) -> "trimesh.Trimesh":
     """Return a shape's mesh (mm); whoever asks gets the same one."""
-    from jumpcad.solids.finish import to_trimesh
+    from jumpcad.solids.stl import to_trimesh
 
     return to_trimesh(solid_of(shape))
 
@@ -95,7 +95,7 @@ def mesh_of(shape: Shape) -> "trimesh.Trimesh":
 @lru_cache(SHAPES_KEPT)
 def shown_mesh_of(shape: Shape) -> "trimesh.Trimesh":
     """Return a shape's mesh without fine detail (mm); whoever asks gets the same one."""
-    from jumpcad.solids.finish import to_trimesh
+    from jumpcad.solids.stl import to_trimesh
 
     return to_trimesh(solid_of(shape).simplify(UNSEEN_MM))
 

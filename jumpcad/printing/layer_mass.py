@@ -16,8 +16,7 @@ import numpy as np
 from manifold3d import CrossSection, OpType
 
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.printing.cores import Cores, section_moments
-from jumpcad.printing.runs import LayerRun, Numbers, jumps_of, runs_of
+from jumpcad.printing.layers import Cores, LayerRun, Numbers, jumps_of, runs_of, section_moments
 from jumpcad.solids.moments import Measured, mass_of, prism_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import NOTHING, SMALLEST_AREA_MM2, CrossSections

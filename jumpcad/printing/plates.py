@@ -130,11 +130,8 @@ def _plates(parts: Sequence[Printable], bed_mm: Sequence[float], spacing_mm: flo
 def _packer(sizes: Sequence[tuple[int, ...]], bed_mm: Sequence[float], spacing_mm: float, edge_mm: float) -> Any:
     """Return the rectangles packed on beds without an edge; those that do not fit are left out."""
     packer = rectpack.newPacker(
-        bin_algo=rectpack.PackingBin.BFF,
-        pack_algo=rectpack.MaxRectsBssf,
-        sort_algo=rectpack.SORT_LSIDE,
-        rotation=True,
-    )
+        bin_algo=rectpack.PackingBin.BFF, pack_algo=rectpack.MaxRectsBssf, sort_algo=rectpack.SORT_LSIDE, rotation=True,
+    )  # fmt: skip
     sides = (math.floor((side - 2.0 * edge_mm + spacing_mm) * STEPS_PER_MM) for side in bed_mm[:2])
     packer.add_bin(*sides, count=len(sizes))
     for number, size in enumerate(sizes):

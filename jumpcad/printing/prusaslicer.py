@@ -1,4 +1,4 @@
-"""Mass and time of a part by PrusaSlicer, printed as the workshop says."""
+"""Mass and time of a part by PrusaSlicer, printed as the workshop says; the settings of a 3MF file for it."""
 
 import math
 import re
@@ -53,30 +53,19 @@ def slicer_settings(printer: Printer, process: Process, material: Material | Pad
     solid = process.infill >= 1.0
     lines = ("", "perimeter_", "external_perimeter_", "infill_", "solid_infill_", "top_infill_", "first_layer_")
     return {
-        "bed_shape": f"0x0,{width:g}x0,{width:g}x{height:g},0x{height:g}",
-        "max_print_height": f"{printer.bed_mm[2]:g}",
-        "nozzle_diameter": f"{printer.nozzle_mm:g}",
-        "filament_diameter": f"{FILAMENT_MM:g}",
-        "filament_density": f"{material.density_g_cm3:g}",
-        "layer_height": f"{process.layer_height_mm:g}",
+        "bed_shape": f"0x0,{width:g}x0,{width:g}x{height:g},0x{height:g}", "max_print_height": f"{printer.bed_mm[2]:g}",
+        "nozzle_diameter": f"{printer.nozzle_mm:g}", "filament_diameter": f"{FILAMENT_MM:g}",
+        "filament_density": f"{material.density_g_cm3:g}", "layer_height": f"{process.layer_height_mm:g}",
         "first_layer_height": f"{process.first_layer_mm:g}",
         **{f"{line}extrusion_width": f"{process.line_width_mm:g}" for line in lines},
-        "perimeters": str(process.perimeters),
-        "top_solid_layers": str(process.top_layers),
-        "bottom_solid_layers": str(process.bottom_layers),
-        "top_solid_min_thickness": "0",
-        "bottom_solid_min_thickness": "0",
-        "fill_density": f"{100.0 * process.infill:g}%",
+        "perimeters": str(process.perimeters), "top_solid_layers": str(process.top_layers),
+        "bottom_solid_layers": str(process.bottom_layers), "top_solid_min_thickness": "0",
+        "bottom_solid_min_thickness": "0", "fill_density": f"{100.0 * process.infill:g}%",
         "fill_pattern": "rectilinear" if solid else process.infill_pattern,
-        "solid_infill_below_area": f"{process.solid_below_area_mm2:g}",
-        "skirts": "0",
-        "brim_width": "0",
-        "elefant_foot_compensation": "0",
-        "support_material": "0",
-        "ensure_vertical_shell_thickness": "0",
-        "start_gcode": "",
-        "end_gcode": "",
-    }
+        "solid_infill_below_area": f"{process.solid_below_area_mm2:g}", "skirts": "0", "brim_width": "0",
+        "elefant_foot_compensation": "0", "support_material": "0", "ensure_vertical_shell_thickness": "0",
+        "start_gcode": "", "end_gcode": "",
+    }  # fmt: skip
 
 
 def slicer_version() -> str:
@@ -140,13 +129,9 @@ def _run(arguments: list[str], purpose: str) -> subprocess.CompletedProcess[str]
             tempfile.TemporaryFile() as errors,
         ):  # children may hold a pipe
             done = subprocess.run(
-                [program, *arguments],
-                stdin=subprocess.DEVNULL,
-                stdout=said,
-                stderr=errors,
-                timeout=TIMEOUT_S,
+                [program, *arguments], stdin=subprocess.DEVNULL, stdout=said, stderr=errors, timeout=TIMEOUT_S,
                 check=False,
-            )
+            )  # fmt: skip
             texts = [(one.seek(0), one.read(LARGEST_SAID).decode(errors="replace"))[1] for one in (said, errors)]
             return subprocess.CompletedProcess(done.args, done.returncode, *texts)
     except subprocess.TimeoutExpired:
@@ -159,3 +144,27 @@ def _seconds(text: str) -> float:
     """Return the seconds of a duration such as `1d 2h 3m 4s`."""
     units = {"d": 86400.0, "h": 3600.0, "m": 60.0, "s": 1.0}
     return sum(float(value) * units[unit] for value, unit in re.findall(r"(\d+)([dhms])", text))
+
+
+OF_THE_PRINTER = "start_gcode", "end_gcode"
+"""Settings of the mass model that a print must not have: it starts by heating and homing."""
+LAYERS = "first_layer_", ""
+"""Beginnings of the keys of temperatures: of the first layer, and of the others."""
+
+
+def project_settings(printer: Printer, process: Process, material: Material | Pad, filament: str) -> dict[str, str]:
+    """Return PrusaSlicer's settings of a print; `filament` is the material's name.
+
+    Temperatures that the workshop does not know are left out. Pads are printed as parts are, but solid, as their mass
+    is computed.
+    """
+    if isinstance(material, Pad):
+        process, heats = process.model_copy(update={"infill": 1.0}), {}
+    else:
+        heats = {"temperature": material.nozzle_c, "bed_temperature": material.bed_c}
+    settings = slicer_settings(printer, process, material)
+    return {
+        **{key: value for key, value in settings.items() if key not in OF_THE_PRINTER},
+        "filament_type": filament,
+        **{f"{layer}{key}": f"{heat:g}" for key, heat in heats.items() if heat is not None for layer in LAYERS},
+    }

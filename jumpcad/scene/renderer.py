@@ -16,8 +16,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from jumpcad.scene.camera import Camera, View, aimed, turned
-from jumpcad.scene.raster import rasterized
-from jumpcad.scene.shading import CREASE_RAD, with_normals
+from jumpcad.scene.raster import CREASE_RAD, rasterized, with_normals
 from jumpcad.scene.visuals import Colour
 from jumpcad.transforms import Array
 
@@ -66,13 +65,9 @@ class Renderer:
             self._things.append(ShadedMesh(vertices * MM, normals, faces, creases(mesh) * MM, colour))
 
     def picture(
-        self,
-        poses: Sequence[Array | None],
-        size: tuple[int, int],
-        view: View,
-        frame_m: Array,
+        self, poses: Sequence[Array | None], size: tuple[int, int], view: View, frame_m: Array,
         pale: Sequence[bool] | None = None,
-    ) -> Image.Image:
+    ) -> Image.Image:  # fmt: skip
         """Return a picture.
 
         Parameters

@@ -192,12 +192,12 @@ class CapsuleModel(RobotModel):
 
     def admits(self, design: Design) -> bool:
         """Whether the robot stands and its springs are strong enough, too."""
-        from jumpcad.mechanism.capsule import capsule_robot
+        from jumpcad.mechanism.variants import capsule_robot
 
         return super().admits(design) and not errors(statics_findings(capsule_robot(design)))
 
     def _evaluated(self, design: Design) -> Evaluation:
-        from jumpcad.mechanism.capsule import capsule_robot
+        from jumpcad.mechanism.variants import capsule_robot
         from jumpcad.simulation import simulate
 
         jump = simulate(capsule_robot(design), self.settings, self.engine)

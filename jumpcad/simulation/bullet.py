@@ -68,12 +68,9 @@ class BulletEngine:
         self._robots += 1
         bullet.setGravity(0.0, 0.0, -settings.gravity_m_s2, physicsClientId=client)
         bullet.setPhysicsEngineParameter(
-            fixedTimeStep=settings.dt_s,
-            numSolverIterations=settings.solver_iterations,
-            solverResidualThreshold=settings.solver_residual,
-            numSubSteps=0,
-            physicsClientId=client,
-        )
+            fixedTimeStep=settings.dt_s, numSolverIterations=settings.solver_iterations,
+            solverResidualThreshold=settings.solver_residual, numSubSteps=0, physicsClientId=client,
+        )  # fmt: skip
         # Bullet multiplies the restitutions of both sides: with 1 for the ground, the robot's is that of the contact.
         bullet.changeDynamics(
             self._ground, -1, lateralFriction=ground_friction, restitution=1.0, physicsClientId=client

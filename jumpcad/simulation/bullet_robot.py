@@ -54,12 +54,9 @@ class BulletRobot:
         self._set_dynamics(settings, rubs, bodies)
         for link, joint in enumerate(_joints(mechanism)):
             bullet.resetJointState(
-                self.number,
-                link,
-                release.joint_rad[joint.name],
-                release.joint_rad_s[joint.name],
+                self.number, link, release.joint_rad[joint.name], release.joint_rad_s[joint.name],
                 physicsClientId=client,
-            )
+            )  # fmt: skip
         if mechanism.roller_off:
             self._set_off(bodies[0], release)
         self._close_loop(mechanism)
@@ -120,26 +117,16 @@ class BulletRobot:
         bullet, mechanism, client = self.bullet, self.number, self.client
         for link, (body, moments) in enumerate(zip(bodies, self._moments, strict=True), start=-1):
             bullet.changeDynamics(
-                mechanism,
-                link,
-                localInertiaDiagonal=moments.tolist(),
-                lateralFriction=rubs.of(body.surface),
-                rollingFriction=settings.rolling_friction_m,
-                spinningFriction=settings.spinning_friction_m,
-                restitution=settings.restitution,
-                jointDamping=rubs.joint_damping_nms_per_rad,
-                physicsClientId=client,
-            )
+                mechanism, link, localInertiaDiagonal=moments.tolist(), lateralFriction=rubs.of(body.surface),
+                rollingFriction=settings.rolling_friction_m, spinningFriction=settings.spinning_friction_m,
+                restitution=settings.restitution, jointDamping=rubs.joint_damping_nms_per_rad, physicsClientId=client,
+            )  # fmt: skip
         bullet.changeDynamics(mechanism, -1, linearDamping=0.0, angularDamping=0.0, physicsClientId=client)
         bullet.changeDynamics(mechanism, -1, maxJointVelocity=UNCLAMPED_RAD_S, physicsClientId=client)
         # Bullet gives every joint a motor that holds it.
         bullet.setJointMotorControlArray(
-            mechanism,
-            JOINTS,
-            bullet.VELOCITY_CONTROL,
-            forces=self.dry_nm,
-            physicsClientId=client,
-        )
+            mechanism, JOINTS, bullet.VELOCITY_CONTROL, forces=self.dry_nm, physicsClientId=client,
+        )  # fmt: skip
 
     def _close_loop(self, mechanism: Mechanism) -> None:
         """Connect front link and foot; Bullet needs the points in their principal axes."""
@@ -147,16 +134,10 @@ class BulletRobot:
         points = {mechanism.loop.body_a: mechanism.loop.point_a_m, mechanism.loop.body_b: mechanism.loop.point_b_m}
         front_axes, foot_axes = self.axes[1 + FRONT], self.axes[1 + FOOT_LINK]
         self.bullet.createConstraint(
-            self.number,
-            FRONT,
-            self.number,
-            FOOT_LINK,
-            self.bullet.JOINT_POINT2POINT,
-            [0.0, 0.0, 0.0],
+            self.number, FRONT, self.number, FOOT_LINK, self.bullet.JOINT_POINT2POINT, [0.0, 0.0, 0.0],
             (front_axes.T @ (points[FRONT_LINK] - front.com_m)).tolist(),
-            (foot_axes.T @ (points[FOOT] - foot.com_m)).tolist(),
-            physicsClientId=self.client,
-        )
+            (foot_axes.T @ (points[FOOT] - foot.com_m)).tolist(), physicsClientId=self.client,
+        )  # fmt: skip
 
 
 def _joints(mechanism: Mechanism) -> list[Joint]:

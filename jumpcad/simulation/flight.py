@@ -13,10 +13,8 @@ import numpy as np
 
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, Mechanism, Multibody
-from jumpcad.mechanism.planar import about_common_centre, frames, points, seen_from_body
-from jumpcad.mechanism.reflected import flying_inertias
-from jumpcad.simulation.ballistics import Ballistics
-from jumpcad.simulation.mechanics import Mechanics, Points, State, surface
+from jumpcad.mechanism.planar import about_common_centre, flying_inertias, frames, points, seen_from_body
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, Points, State, surface
 from jumpcad.transforms import Array
 
 SWING_POINTS = 9

@@ -178,16 +178,12 @@ def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
         raise JumpcadError(f"{place}: must be revolute about the axis 0 1 0, and its rpy 0 ANGLE 0")
     limit = _child(node, "limit", place)
     return Joint(
-        name=name,
-        parent=_text(_child(node, "parent", place), "link"),
-        child=_text(_child(node, "child", place), "link"),
-        origin_m=origin_m,
-        rest_angle_rad=float(pitch),
-        lower_rad=travel_rad[0],
-        upper_rad=travel_rad[1],
+        name=name, parent=_text(_child(node, "parent", place), "link"),
+        child=_text(_child(node, "child", place), "link"), origin_m=origin_m, rest_angle_rad=float(pitch),
+        lower_rad=travel_rad[0], upper_rad=travel_rad[1],
         effort_nm=_number(limit, "effort", place, 0.0, LARGEST_EFFORT),
         velocity_rad_s=_number(limit, "velocity", place, 1e-6, LARGEST_EFFORT),
-    )
+    )  # fmt: skip
 
 
 def _require_mechanism(mechanism: Mechanism) -> None:

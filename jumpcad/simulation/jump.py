@@ -45,14 +45,10 @@ class EnergyBudget:
         What an engine's arithmetic has gained makes a loss negative, mostly `contact`; `gained_j` is all of it.
         """
         return {
-            "useful": self.forward_j + self.upward_j + self.lift_j,
-            "internal": self.internal_j,
-            "springs": self.spring_j,
-            "release": self.release_j,
-            "pins": self.joint_damping_j,
-            "slip": self.slip_j,
+            "useful": self.forward_j + self.upward_j + self.lift_j, "internal": self.internal_j,
+            "springs": self.spring_j, "release": self.release_j, "pins": self.joint_damping_j, "slip": self.slip_j,
             "contact": self.contact_j,
-        }
+        }  # fmt: skip
 
     @property
     def gained_j(self) -> float:

@@ -21,8 +21,7 @@ from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation import run
 from jumpcad.simulation.flight import MOMENTS, SLOWEST, SWING_POINTS
 from jumpcad.simulation.mechanics import State, surface
-from jumpcad.simulation.planar_model import planar_model
-from jumpcad.simulation.planar_state import PushOff, StepState
+from jumpcad.simulation.planar_model import PushOff, StepState, planar_model
 from jumpcad.simulation.run import AIRBORNE_S, AUDIT_EVERY_S, TAKEOFF_WITHIN_S, Run, Takeoff
 from jumpcad.transforms import Array
 

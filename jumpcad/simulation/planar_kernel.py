@@ -14,13 +14,13 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, TypeVar, cast
 
-from jumpcad.simulation.planar_model import PlanarModel
-from jumpcad.simulation.planar_state import (
+from jumpcad.simulation.planar_model import (
     Contact,
     Gains,
     Inertia,
     Links,
     Losses,
+    PlanarModel,
     PlanarMotion,
     PushOff,
     Stance,
@@ -94,17 +94,11 @@ def links_at(model: PlanarModel, leg_rad: float) -> Links:
         leg - on_front * front * complex(front1 * front1, front2),
     )  # fmt: skip
     return Links(
-        closed,
-        (body[0], main[0], other[0], foot_com),
-        (body[1], main[1], other[1], 0j),
-        (body[2], main[2], other[2], 0j),
-        (-foot1, 1.0 - foot1, front1 - foot1, 0.0),
-        (-foot2, -foot2, front2 - foot2, 0.0),
-        (1.0, front1, foot1 - 1.0, front1 - foot1),
-        pitch,
-        -leg * pitch,
+        closed, (body[0], main[0], other[0], foot_com), (body[1], main[1], other[1], 0j),
+        (body[2], main[2], other[2], 0j), (-foot1, 1.0 - foot1, front1 - foot1, 0.0),
+        (-foot2, -foot2, front2 - foot2, 0.0), (1.0, front1, foot1 - 1.0, front1 - foot1), pitch, -leg * pitch,
         (model.l1_m - leg) * pitch,
-    )
+    )  # fmt: skip
 
 
 @compiled
@@ -131,13 +125,9 @@ def inertia_at(model: PlanarModel, links: Links, turn: complex) -> Inertia:
         leg += mass * (place1 * place1.conjugate()).real + spin * turn1 * turn1
     by_foot, by_leg, total = -1j * moment * turn, moment1 * turn, model.total_kg
     return Inertia(
-        total,
-        by_foot,
-        by_leg,
-        foot - (by_foot * by_foot.conjugate()).real / total,
-        both - (by_foot.conjugate() * by_leg).real / total,
-        leg - (by_leg * by_leg.conjugate()).real / total,
-    )
+        total, by_foot, by_leg, foot - (by_foot * by_foot.conjugate()).real / total,
+        both - (by_foot.conjugate() * by_leg).real / total, leg - (by_leg * by_leg.conjugate()).real / total,
+    )  # fmt: skip
 
 
 @compiled
@@ -412,29 +402,17 @@ def step(model: PlanarModel, moment: StepState, dt: float) -> StepState:
         middle = plus(before, plus(after, before, -1.0), 0.5)
         dry = dry_torque(model, links)
     return StepState(
-        ankle + half * after.ankle,
-        foot_rad + half * after.foot,
-        leg_rad + half * after.leg,
-        after,
-        contact,
-        dry,
+        ankle + half * after.ankle, foot_rad + half * after.foot, leg_rad + half * after.leg, after, contact, dry,
         _more_losses(model, moment.losses, links, ground, middle, contact, friction_ns, stop_ns),
-        _belly_gap_m(model, links, ground),
-        links.closed,
-    )
+        _belly_gap_m(model, links, ground), links.closed,
+    )  # fmt: skip
 
 
 @compiled
 def _more_losses(
-    model: PlanarModel,
-    losses: Losses,
-    links: Links,
-    ground: Stance,
-    middle: PlanarMotion,
-    contact: Contact,
-    friction_ns: float,
-    stop_ns: float,
-) -> Losses:
+    model: PlanarModel, losses: Losses, links: Links, ground: Stance, middle: PlanarMotion, contact: Contact,
+    friction_ns: float, stop_ns: float,
+) -> Losses:  # fmt: skip
     """Return the losses after a step: impulses times the mean of the velocities before and after."""
     damped = 1.0 + links.pin1[1] * links.pin1[1] + links.pin1[2] * links.pin1[2]
     along = contact.along_ns * (middle.ankle.real - ground.ankle_m.imag * middle.foot)
@@ -478,15 +456,9 @@ def advance(model: PlanarModel, moment: StepState, dt: float, steps: int) -> Ste
 
 @compiled
 def push_off(
-    model: PlanarModel,
-    moment: StepState,
-    dt: float,
-    airborne_s: float,
-    clearance_m: float,
-    within_s: float,
-    max_time_s: float,
-    audit_every: int,
-) -> PushOff:
+    model: PlanarModel, moment: StepState, dt: float, airborne_s: float, clearance_m: float, within_s: float,
+    max_time_s: float, audit_every: int,
+) -> PushOff:  # fmt: skip
     """Advance from release to the last contact with the ground before the robot flies.
 
     It flies once it has been in the air for `airborne_s` and cleared the ground by `clearance_m`, its centre of mass

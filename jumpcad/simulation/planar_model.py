@@ -1,7 +1,7 @@
-"""The planar engine's model of a robot: plain numbers, all read from the robot here.
+"""The planar engine's model of a robot: plain numbers, all read from the robot here, and what its functions pass on.
 
 The plane is x-z. Points and vectors are complex numbers x + iz, so that a turn by an angle about +y (nose down) is a
-multiplication by exp(-i·angle).
+multiplication by exp(-i·angle). All are plain tuples, which compiled code reads as fast as locals.
 """
 
 import math
@@ -10,6 +10,111 @@ from typing import NamedTuple
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.settings import Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
+
+Complexes = tuple[complex, complex, complex, complex]
+Floats = tuple[float, float, float, float]
+
+
+class Links(NamedTuple):
+    """The mechanism at one leg angle, in the foot's frame; primes are derivatives by the leg's angle.
+
+    `place`, `place1`, `place2` are the bodies' centres of mass seen from the ankle and their derivatives, `turn1` and
+    `turn2` those of the bodies' angles; `pin1` the rates of the pins leg, front, ankle and eye; `pitch` is exp(i·angle
+    of the foot in the body's frame), `pivots` the two pivots of the body.
+    """
+
+    closed: bool
+    place: Complexes
+    place1: Complexes
+    place2: Complexes
+    turn1: Floats
+    turn2: Floats
+    pin1: Floats
+    pitch: complex
+    back_pivot: complex
+    front_pivot: complex
+
+
+class Inertia(NamedTuple):
+    """Mass matrix in closed form: total mass, first moments by foot and leg angle, and the rest about the centre."""
+
+    mass: float
+    by_foot: complex
+    by_leg: complex
+    foot: float
+    both: float
+    leg: float
+
+
+class PlanarMotion(NamedTuple):
+    """Velocities, or their changes: of the ankle, of the foot's angle, of the leg joint."""
+
+    ankle: complex
+    foot: float
+    leg: float
+
+
+class Contact(NamedTuple):
+    """Impulses of the ground on two spheres of the sole and along it, and in which mode they were found."""
+
+    first: int
+    second: int
+    mode: int
+    first_ns: float
+    second_ns: float
+    along_ns: float
+
+
+class Stance(NamedTuple):
+    """Where the foot stands in the middle of a step: ankle, exp(-i·angle) of the foot, and half of the time step."""
+
+    ankle_m: complex
+    turn: complex
+    half_s: float
+
+
+class Gains(NamedTuple):
+    """Changes of velocity by unit impulses at the ankle along x and z, and of torque on foot and leg joint."""
+
+    x: PlanarMotion
+    z: PlanarMotion
+    foot: PlanarMotion
+    leg: PlanarMotion
+
+
+class Losses(NamedTuple):
+    """Energy lost so far (J): by viscous damping, dry friction of joints and pins, slip, normal impact, the stop."""
+
+    damping_j: float
+    friction_j: float
+    slip_j: float
+    impact_j: float
+    stop_j: float
+
+
+class StepState(NamedTuple):
+    """The state between two steps, and what the next step needs from the last."""
+
+    ankle_m: complex
+    foot_rad: float
+    leg_rad: float
+    speed: PlanarMotion
+    contact: Contact
+    dry_nm: float
+    losses: Losses
+    belly_gap_m: float
+    closed: bool
+
+
+class PushOff(NamedTuple):
+    """How a push-off ended: steps up to the take-off, if it flew, and the moment there or at the end."""
+
+    flown: bool
+    steps: int
+    moment: StepState
+    worst_gain_j: float
+    belly_gap_m: float
+
 
 SAME_M = 1e-9
 """Contact spheres that differ by less than this in the plane are one: left and right toe."""
@@ -62,31 +167,19 @@ def planar_model(mechanism: Mechanism, settings: Settings, pins_nm: float | None
     sole, sole_radius = _spheres(foot)
     belly, belly_radius = _spheres(body)
     return PlanarModel(
-        l1_m=design.l1_mm / 1000.0,
-        l2_m=design.l2_mm / 1000.0,
-        l3_m=design.l3_mm / 1000.0,
-        l4_m=design.l4_mm / 1000.0,
-        rest_rad=math.radians(design.rest_angle_deg),
-        total_kg=mechanism.mass_kg,
+        l1_m=design.l1_mm / 1000.0, l2_m=design.l2_mm / 1000.0, l3_m=design.l3_mm / 1000.0, l4_m=design.l4_mm / 1000.0,
+        rest_rad=math.radians(design.rest_angle_deg), total_kg=mechanism.mass_kg,
         mass_kg=tuple(body.mass_kg for body in bodies),
         com_m=tuple(complex(body.com_m[0], body.com_m[2]) for body in bodies),
-        inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies),
-        gravity_m_s2=settings.gravity_m_s2,
-        pull_m_s2=complex(0.0, -settings.gravity_m_s2),
-        stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
-        preload_rad=spring.preload_rad,
-        one_sided_spring=spring.one_sided,
-        damping_nms_per_rad=rubs.joint_damping_nms_per_rad,
-        joint_friction_nm=settings.joint_friction_nm,
+        inertia_kg_m2=tuple(float(body.inertia_kg_m2[1, 1]) for body in bodies), gravity_m_s2=settings.gravity_m_s2,
+        pull_m_s2=complex(0.0, -settings.gravity_m_s2), stiffness_nm_per_rad=spring.stiffness_nm_per_rad,
+        preload_rad=spring.preload_rad, one_sided_spring=spring.one_sided,
+        damping_nms_per_rad=rubs.joint_damping_nms_per_rad, joint_friction_nm=settings.joint_friction_nm,
         pins_nm=pin_torque_nm(mechanism, rubs.pin) if pins_nm is None else pins_nm,
         stop_rad=float(stop.angle_rad) if stop else math.inf,
-        stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0,
-        friction=rubs.contact(foot.surface),
-        sole_m=sole,
-        sole_radius_m=sole_radius,
-        belly_m=belly,
-        belly_radius_m=belly_radius,
-    )
+        stop_nm_per_rad=float(stop.stiffness_nm_per_rad) if stop else 0.0, friction=rubs.contact(foot.surface),
+        sole_m=sole, sole_radius_m=sole_radius, belly_m=belly, belly_radius_m=belly_radius,
+    )  # fmt: skip
 
 
 def _spheres(body: Body) -> tuple[tuple[complex, ...], tuple[float, ...]]:

@@ -21,7 +21,6 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable, read_toml
 from jumpcad.files.records import Name
-from jumpcad.mechanism.capsule import capsule, capsule_robot
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import (
     BODY_NAMES,
@@ -36,6 +35,7 @@ from jumpcad.mechanism.model import (
     Spring,
     Stop,
 )
+from jumpcad.mechanism.variants import capsule, capsule_robot
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import Array
 

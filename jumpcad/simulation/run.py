@@ -14,10 +14,9 @@ from scipy.spatial.transform import Rotation
 from jumpcad.findings import Basis, Finding, at_most, higher, limit
 from jumpcad.mechanism.model import Mechanism, Multibody
 from jumpcad.settings import Settings, coefficients, takeoff_clearance_m
-from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_m_s2, drag_per_m
 from jumpcad.simulation.flight import Flight, flight, seen_flight
 from jumpcad.simulation.jump import EnergyBudget, Trajectory
-from jumpcad.simulation.mechanics import Mechanics, State, loaded_state
+from jumpcad.simulation.mechanics import Ballistics, Mechanics, State, ballistics, drag_m_s2, drag_per_m, loaded_state
 from jumpcad.transforms import Array
 
 AUDIT_EVERY_S = 0.008
@@ -308,16 +307,11 @@ class Run:
         wound, loaded_j = self.spring_energy_j, mechanics.energies(self.loaded).total_j
         left, release_j = energies.total_j - loaded_j + wound, loaded_j - self.start_energy_j
         budget = EnergyBudget(
-            forward_j=forward,
-            upward_j=upward,
-            internal_j=energies.kinetic_j - forward - upward,
-            lift_j=mechanics.weight_n * float(here[2] - start[2]),
-            spring_j=energies.spring_j,
-            release_j=release_j,
-            joint_damping_j=joint_damping_j,
-            slip_j=slip_j,
+            forward_j=forward, upward_j=upward, internal_j=energies.kinetic_j - forward - upward,
+            lift_j=mechanics.weight_n * float(here[2] - start[2]), spring_j=energies.spring_j, release_j=release_j,
+            joint_damping_j=joint_damping_j, slip_j=slip_j,
             contact_j=wound - left - release_j - joint_damping_j - slip_j,
-        )
+        )  # fmt: skip
         reach = 2.0 * self.mechanism.length_m  # farther than any contact is from the centre
         path = ballistics(start, here, velocity, self.settings.gravity_m_s2, self.drag_per_m, reach)
         flown = None

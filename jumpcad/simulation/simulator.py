@@ -6,7 +6,7 @@ from jumpcad.exporters.mjcf import SUBSTEPS
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism, Multibody
-from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.mechanism.planar import reflected_mass
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings as Settings
 from jumpcad.settings import load_settings as load_settings
@@ -125,32 +125,17 @@ def _jump(run: Run, engine: str, findings: tuple[Finding, ...]) -> Jump:
     if failed or takeoff is None:
         refused = failed or [run.standing()]
         return Jump(
-            refused[0].name,
-            engine,
-            mechanism.mass_kg,
-            run.spring_energy_j,
-            trajectory=run.trajectory(),
+            refused[0].name, engine, mechanism.mass_kg, run.spring_energy_j, trajectory=run.trajectory(),
             findings=findings if failed else (*findings, *refused),
-        )
+        )  # fmt: skip
     path, offset_m = takeoff.ballistics, float(run.mechanics.centre_of_mass_m(run.loaded)[1])
     flown = (vars(takeoff.flight) if takeoff.flight else {}) | run.touchdown
     return Jump(
-        "jump",
-        engine,
-        mechanism.mass_kg,
-        run.spring_energy_j,
-        fitness=path.range_m / mechanism.length_m,
-        ballistic_range_m=path.range_m,
-        com_rise_m=path.rise_m,
+        "jump", engine, mechanism.mass_kg, run.spring_energy_j, fitness=path.range_m / mechanism.length_m,
+        ballistic_range_m=path.range_m, com_rise_m=path.rise_m,
         release_energy_ratio=1.0 - takeoff.energy.release_j / run.spring_energy_j,
-        takeoff_energy_ratio=takeoff.energy_ratio,
-        takeoff_speed_m_s=path.speed_m_s,
-        takeoff_angle_deg=path.angle_deg,
-        takeoff_time_s=takeoff.time_s,
-        **flown,
+        takeoff_energy_ratio=takeoff.energy_ratio, takeoff_speed_m_s=path.speed_m_s, takeoff_angle_deg=path.angle_deg,
+        takeoff_time_s=takeoff.time_s, **flown,
         touchdown_gap_m=path.range_m - flown["touchdown_distance_m"] if flown else None,
-        lateral_offset_mm=1000.0 * offset_m,
-        energy=takeoff.energy,
-        trajectory=run.trajectory(),
-        findings=findings,
-    )
+        lateral_offset_mm=1000.0 * offset_m, energy=takeoff.energy, trajectory=run.trajectory(), findings=findings,
+    )  # fmt: skip

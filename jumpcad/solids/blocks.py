@@ -14,10 +14,10 @@ import numpy as np
 import numpy.typing as npt
 from manifold3d import CrossSection, Manifold, OpType
 
-from jumpcad.solids.finish import finished
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region, circle_points, corners_key
 from jumpcad.solids.slab import NOTHING, CrossSections
+from jumpcad.solids.stl import finished
 from jumpcad.transforms import Array
 
 Contours = list[Array]

@@ -11,8 +11,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import View
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
-from jumpcad.steps.assembly_order import LEFT, LOWER, UPPER, Move
-from jumpcad.steps.assembly_steps import Step, assembly_steps, travel
+from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Move, Step, assembly_steps, travel
 from jumpcad.steps.step_insets import BEHIND, INSETS, Inset
 from jumpcad.transforms import Array, chained, pose_at
 

@@ -19,7 +19,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import read_toml, templates_folder
 from jumpcad.files.rendering import fill
 from jumpcad.findings import Finding, errors
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump, headline, simulate
 from jumpcad.transforms import Array

@@ -11,8 +11,7 @@ from jumpcad.bundle.viewer import turning_parts
 from jumpcad.design import Design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.surface import seen
-from jumpcad.scene.visuals import Visual, visuals
+from jumpcad.scene.visuals import Visual, seen, visuals
 from jumpcad.solids.tube import DrawnWire, tube
 from jumpcad.studio.answers import ShownMoment
 from jumpcad.transforms import Array, chained, pose_about_y

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from jumpcad.calibration.likelihood import CalibrationModel, predict
 from jumpcad.calibration.subject import load_subject
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.simulation.ballistics import Ballistics, ballistics, drag_per_m
+from jumpcad.simulation.mechanics import Ballistics, ballistics, drag_per_m
 from jumpcad.simulation.published_robots import Figure, RobotFacts, load_facts
 from jumpcad.transforms import Array
 from jumpcad.validation.family import Member, family, jump_of

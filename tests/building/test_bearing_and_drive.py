@@ -21,7 +21,7 @@ from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.reflected import reflected_mass
+from jumpcad.mechanism.planar import reflected_mass
 from jumpcad.robot.sizing import RESERVE, sections
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.growth import Growth

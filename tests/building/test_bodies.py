@@ -13,7 +13,7 @@ from support.workshops import workshop_with
 from jumpcad.building.bodies import _contacts, friction_of
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
 from jumpcad.robot.robot import Robot
-from jumpcad.solids.finish import to_trimesh
+from jumpcad.solids.stl import to_trimesh
 
 
 def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:

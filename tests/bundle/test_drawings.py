@@ -12,7 +12,7 @@ from support.built import built, geared, placed
 from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
-from jumpcad.bundle.springs import arms_off_deg, torque_shares
+from jumpcad.bundle.facts import arms_off_deg, torque_shares
 from jumpcad.robot.electronics.lead_ways import plate_of
 from jumpcad.robot.robot import Robot
 

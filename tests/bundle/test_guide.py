@@ -32,8 +32,7 @@ from jumpcad.findings import errors, limit
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import simulate
-from jumpcad.steps.assembly_order import ORDER
-from jumpcad.steps.assembly_steps import assembly_steps
+from jumpcad.steps.assembly_steps import ORDER, assembly_steps
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
 

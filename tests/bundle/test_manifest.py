@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from jumpcad.bundle.atomic_write import write_folder
-from jumpcad.bundle.manifest import Bundle, open_bundle, unlisted, verify
+from jumpcad.bundle.manifest import Bundle, kept_design, kept_workshop, open_bundle, unlisted, verify
 from jumpcad.errors import JumpcadError
+from jumpcad.workshop import load_workshop
 
 SHA = "0" * 64
 GOOD = {"format": 1, "name": "frog", "versions": {"jumpcad": "0.1.0"}, "files": {"a/b.md": SHA}}
@@ -136,3 +137,18 @@ def test_what_was_added_is_named_apart_and_printable(tmp_path: Path) -> None:
     for name in ("a.md", "notes.txt"):
         (folder / "deep" / name).unlink()
     assert unlisted(folder) == ["\\x1b[2J", "album/empty", "link"]  # an empty folder of the bundle is its own
+
+
+def test_the_inputs_of_a_bundle_lie_in_it(tmp_path: Path) -> None:
+    whole = load_workshop("default").to_toml()
+    folder = write_folder(tmp_path / "b", "frog", {}, [("workshop.toml", whole), ("design.toml", "")]).folder
+    assert kept_workshop(open_bundle(folder)) == load_workshop("default")
+    (tmp_path / "secret.toml").write_text("x = 1")
+    for line in (f'base = "{tmp_path}/secret.toml"', 'base = "../secret.toml"', 'printer = "../secret.toml"'):
+        (folder / "workshop.toml").write_text(line)
+        with pytest.raises(JumpcadError, match="a bundle's workshop is complete and names no other file"):
+            kept_workshop(open_bundle(folder))
+    (folder / "design.toml").unlink()
+    (folder / "design.toml").symlink_to("../secret.toml")
+    with pytest.raises(JumpcadError, match=r"design\.toml: a link"):
+        kept_design(open_bundle(folder))

@@ -12,7 +12,7 @@ from support.decimals import decimals
 from jumpcad.bundle.motion import SHOWN_S, _seven, motion
 from jumpcad.bundle.viewer import viewer_data
 from jumpcad.mechanism.model import BODY, MAIN_LEG
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Settings, simulate
 
 

@@ -13,7 +13,7 @@ from jumpcad.bundle.renders import exploded, jump_gif
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import aimed
-from jumpcad.scene.floor import STRIPES
+from jumpcad.scene.labels import STRIPES
 from jumpcad.scene.renderer import paletted
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import Settings, simulate

@@ -25,8 +25,8 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
-from jumpcad.steps import assembly_order, assembly_steps
-from jumpcad.steps.assembly_order import Tool
+from jumpcad.steps import assembly_steps
+from jumpcad.steps.assembly_steps import Tool
 
 STEEP_TOES = Design.from_vector([135.2, 0.88, 0.71, 1.25, 0.22, 59.6, 28.0, 66.4])
 SHORT_BODY = Design.from_vector([79.2, 0.8807, 0.4388, 1.2223, 0.7436, 55.55, 28.06, 15.0])
@@ -54,7 +54,7 @@ def test_everything_reaches_its_place_and_every_tool_its_fastener(name: str) -> 
 
 def _reordered(monkeypatch: pytest.MonkeyPatch, first: str, then: str) -> None:
     """Put one step before another."""
-    plans = list(assembly_order.ORDER)
+    plans = list(assembly_steps.ORDER)
     keys = [plan.key for plan in plans]
     plan = plans.pop(keys.index(first))
     plans.insert([plan.key for plan in plans].index(then), plan)
@@ -95,7 +95,7 @@ def test_a_thick_tool_does_not_reach_the_motors_cap(monkeypatch: pytest.MonkeyPa
                 for move in plan.moves
             ),
         )
-        for plan in assembly_order.ORDER
+        for plan in assembly_steps.ORDER
     ]
     monkeypatch.setattr(assembly_steps, "ORDER", tuple(plans))
     stops = [stop for *_, stop in tools(assembly_ways(replace(built("kenan-2.0")))) if stop]

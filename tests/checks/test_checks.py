@@ -10,7 +10,7 @@ from jumpcad import checks
 from jumpcad.checks import constraint_findings
 from jumpcad.design import load_design
 from jumpcad.findings import at_most, limit
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.growth import Growth
 

@@ -14,8 +14,8 @@ from support.pictures import with_few_pictures
 
 from jumpcad.cli.bundle import _print_facts
 from jumpcad.design import load_design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES
+from jumpcad.mechanism.variants import capsule_robot
 
 
 def test_a_bundle_has_what_the_contract_says(bundle: Path) -> None:

@@ -14,8 +14,7 @@ from support.commands import Run
 from support.each import each
 from support.places import ROOT
 
-from jumpcad.bundle.coupon_folder import export_coupon
-from jumpcad.bundle.export import export
+from jumpcad.bundle.export import export, export_coupon
 from jumpcad.cli import commands
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design

@@ -12,7 +12,7 @@ from support.places import ROOT
 
 import jumpcad
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import default_engine
 from jumpcad.simulation.uncertain import uncertainty_of

@@ -16,7 +16,7 @@ def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytes
     def refuse(_: object) -> None:
         raise JumpcadError("names other files")
 
-    monkeypatch.setattr("jumpcad.bundle.inputs.kept_workshop", refuse)
+    monkeypatch.setattr("jumpcad.bundle.manifest.kept_workshop", refuse)
     with pytest.raises(JumpcadError, match="names other files"):
         _design(str(ROOT / "exports" / "kenan-2.0"), None)
 

@@ -9,8 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.motion import jump_motion
-from jumpcad.exporters.animation import animated
-from jumpcad.exporters.glb import write_glb
+from jumpcad.exporters.glb import animated, write_glb
 
 PROGRAM = """
 const validator = require("gltf-validator"), fs = require("fs");

@@ -7,9 +7,9 @@ from support import needs
 
 from jumpcad.exporters.threemf import write_threemf
 from jumpcad.printing.plates import packed
-from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import hole, ring, stadium
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.stl import to_trimesh
 
 lib3mf = needs.package("lib3mf")
 

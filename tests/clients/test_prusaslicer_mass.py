@@ -17,11 +17,10 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.printing.prusaslicer import slice_part
 from jumpcad.solids.blocks import Bar, Blocks, Finger
-from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.moments import mass_of
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import to_trimesh, write_stl
 from jumpcad.workshop import load_workshop
 
 needs_slicer = needs.without("prusa-slicer")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from support.fits import with_fits_apart
 
-from jumpcad.bundle.coupon_folder import export_coupon
+from jumpcad.bundle.export import export_coupon
 from jumpcad.coupon.contents import GROUPS, coupon_values
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop

@@ -17,9 +17,8 @@ from jumpcad.coupon.pieces import (
     pieces,
 )
 from jumpcad.printing.plates import packed
-from jumpcad.solids.finish import faults
-from jumpcad.solids.stl import write_stl
-from jumpcad.solids.text import text
+from jumpcad.solids.outline import text
+from jumpcad.solids.stl import faults, write_stl
 from jumpcad.workshop import Workshop, load_workshop
 
 WORKSHOP = load_workshop("default")

@@ -12,7 +12,7 @@ from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.mechanism.model import Body, Joint, Mechanism
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients

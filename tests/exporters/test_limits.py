@@ -13,8 +13,8 @@ from jumpcad.design import load_design
 from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf
 

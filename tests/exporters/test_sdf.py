@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.design import load_design
 from jumpcad.exporters.sdf import write_sdf
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 
 
 @pytest.fixture(scope="module", params=["kenan-1.0", "best-bo"])

@@ -12,8 +12,8 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.urdf import urdf_files, write_urdf
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import simulate

@@ -23,7 +23,7 @@ from support.robots import make_small_robot
 from support.sandbox import Sandbox
 from support.slicers import OBEDIENT
 
-from jumpcad.bundle import coupon_folder, renders
+from jumpcad.bundle import export, renders
 from jumpcad.bundle import export as bundle_export
 from jumpcad.coupon import contents as coupon_contents
 from jumpcad.coupon.pieces import Piece
@@ -84,8 +84,8 @@ def remembered() -> Iterator[dict[object, Any]]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
-        files = once(made, coupon_contents.coupon_files, lambda shop, *_: shop.to_toml())
-        patch.setattr(coupon_folder, "coupon_files", files)
+        files = once(made, coupon_contents.coupon_files, lambda shop, _, *pictures: (shop.to_toml(), pictures))
+        patch.setattr(export, "coupon_files", files)
         patch.setattr(coupon_contents, "_mass_kg", once(made, coupon_contents._mass_kg, mass_key))
         patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
         patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))

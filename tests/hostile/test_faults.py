@@ -171,7 +171,7 @@ def test_a_lost_worker_is_no_lost_search(sandbox: Sandbox) -> None:
         "trap/sitecustomize.py",
         "import os, signal, sys\n"
         "def hook(event, arguments):\n"
-        "    loaded = event == 'import' and arguments[0] == 'jumpcad.mechanism.capsule'\n"
+        "    loaded = event == 'import' and arguments[0] == 'jumpcad.mechanism.variants'\n"
         "    if loaded and 'loky' in ' '.join(sys.orig_argv):\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"
         "sys.addaudithook(hook)\n",

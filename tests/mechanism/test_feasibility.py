@@ -14,7 +14,6 @@ from support.places import DATA
 from jumpcad.design import PARAMETERS, SEARCH_BOUNDS, Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import errors
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import (
     BASIS,
     TAKEOFF_ENERGY_FACTOR,
@@ -23,6 +22,7 @@ from jumpcad.mechanism.feasibility import (
     statics_findings,
     support_span_mm,
 )
+from jumpcad.mechanism.variants import capsule_robot
 
 with (DATA / "reference_flights.csv").open(encoding="utf-8") as stream:
     ROWS = list(csv.DictReader(stream))

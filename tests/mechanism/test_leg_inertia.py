@@ -7,9 +7,9 @@ import pytest
 from support.each import each
 
 from jumpcad.design import load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.variants import capsule_robot
 
 STEP = 1e-5
 

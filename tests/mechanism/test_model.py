@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import (
     BODY,
@@ -19,6 +18,7 @@ from jumpcad.mechanism.model import (
     Spring,
     five_bar,
 )
+from jumpcad.mechanism.variants import capsule_robot
 
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]
 

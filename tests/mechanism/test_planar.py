@@ -1,13 +1,17 @@
 """Bodies in a plane: momenta of a dumb-bell, and places by the law of cosines."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from support.built import body_in_plane, built
 
-from jumpcad.mechanism.model import BODY_NAMES, FOOT, MAIN_LEG
-from jumpcad.mechanism.planar import about_common_centre, dot, points, seen_from_foot
+from jumpcad.design import load_design
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.planar import ReflectedMass, about_common_centre, dot, points, reflected_mass, seen_from_foot
 
 
 def test_a_dumb_bell_turns_about_its_middle() -> None:
@@ -46,3 +50,79 @@ def test_bodies_are_where_the_law_of_cosines_puts_them(share: float, name: str) 
         assert math.remainder(angle + math.atan2(pose[1, 0], pose[0, 0]), 2.0 * math.pi) == pytest.approx(0, abs=1e-9)
     (alone,), _ = seen_from_foot(robot.bodies, robot.linkage, np.array([-wind]), (MAIN_LEG,))
     assert alone == pytest.approx(place[BODY_NAMES.index(MAIN_LEG)])
+
+
+STILL = np.zeros((3, 3))
+
+
+def bodies(mass_kg: float, com_m: tuple[float, float], inertia: float = 0.0) -> dict[str, Body]:
+    """A body alone; its legs have no mass."""
+    about_y = np.diag([0.0, inertia, 0.0])
+    body = Body(BODY, mass_kg, np.array([com_m[0], 0.0, com_m[1]]), about_y)
+    return {BODY: body} | {name: Body(name, 0.0, np.zeros(3), STILL) for name in (MAIN_LEG, FRONT_LINK)}
+
+
+def test_a_parallelogram_carries_its_body_on_a_circle() -> None:
+    """kenan-2.0 has parallel legs: its body moves on a circle as large as they are, without turning."""
+    design = load_design("kenan-2.0")
+    found = reflected_mass(bodies(0.1, (0.01, 0.02), 1e-4), Linkage(design))
+    length = design.l2_mm / 1000.0
+    # slopes of a table are exact to the square of its step
+    assert found.inertia_kg_m2 == pytest.approx(0.1 * length**2, rel=2e-3)
+    rise = -0.1 * GRAVITY_M_S2 * length * np.cos(math.radians(design.rest_angle_deg) - found.wind_rad)
+    assert found.weight_nm == pytest.approx(rise, abs=2e-4)
+
+
+@pytest.mark.parametrize("name", [MAIN_LEG, FRONT_LINK])
+def test_legs_add_what_turns_about_the_foot(name: str) -> None:
+    """Norton, 10.12: a link that turns about a fixed end adds its inertia about that end; its middle rises half."""
+    design = load_design("kenan-2.0")
+    alone, length = bodies(0.1, (0.0, 0.0)), design.l2_mm / 1000.0
+    link = Body(name, 0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]))
+    more, less = (reflected_mass(alone | own, Linkage(design)) for own in ({name: link}, {}))
+    assert more.inertia_kg_m2 - less.inertia_kg_m2 == pytest.approx(0.02 * length**2 / 3.0, rel=5e-3)
+    rise = -0.02 * GRAVITY_M_S2 * length / 2.0 * np.cos(math.radians(design.rest_angle_deg) - more.wind_rad)
+    assert more.weight_nm - less.weight_nm == pytest.approx(rise, abs=2e-5)
+
+
+@pytest.mark.parametrize("past", [0.0, 0.1])
+def test_without_weight_the_leg_is_an_oscillator(past: float) -> None:
+    """A quarter of a period, pi/2·sqrt(I/k), and then on at the largest speed, wound·sqrt(k/I)."""
+    spring, inertia = Spring("leg", 0.5, 0.7), 8e-4
+    wind = np.linspace(0.0, 0.7, 33)
+    level = ReflectedMass(wind, np.full(33, inertia), np.zeros(33), np.zeros(33))
+    expected = math.pi / 2.0 * math.sqrt(inertia / 0.5) + past / (0.7 * math.sqrt(0.5 / inertia))
+    assert level.push_off_s(spring, past) == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize("preload", [0.0, 0.2, 0.7])
+def test_preloaded_springs_push_a_leg_through_a_part_of_their_oscillation(preload: float) -> None:
+    """w + p = (w0 + p)·cos(t·sqrt(k/I)) until w = 0, and then on at the speed that the leg has there."""
+    spring, inertia, rate = Spring("leg", 0.5, 0.7, preload_rad=preload), 8e-4, math.sqrt(0.5 / 8e-4)
+    level = ReflectedMass(np.linspace(0.0, 0.7, 33), np.full(33, inertia), np.zeros(33), np.zeros(33))
+    expected = math.acos(preload / (0.7 + preload)) / rate
+    speed = rate * math.sqrt((0.7 + preload) ** 2 - preload**2)
+    assert level.push_off_s(spring, 0.0) == pytest.approx(expected, rel=2e-3)
+    assert level.push_off_s(spring, 0.1) == pytest.approx(expected + 0.1 / speed, rel=2e-3)
+
+
+@pytest.mark.parametrize("weight_nm", [-0.06, 0.03, 0.09])
+def test_a_steady_weight_acts_as_more_or_less_preload(weight_nm: float) -> None:
+    """k·(w + p) + W = k·(w + p + W/k): the weight helps where the body rises as the leg is wound."""
+    level = ReflectedMass(np.linspace(0.0, 0.7, 33), np.full(33, 8e-4), np.zeros(33), np.full(33, weight_nm))
+    bare = replace(level, weight_nm=np.zeros(33))
+    spring, other = (Spring("leg", 0.5, 0.7, preload_rad=0.2 + more) for more in (0.0, weight_nm / 0.5))
+    assert level.push_off_s(spring, 0.1) == pytest.approx(bare.push_off_s(other, 0.1), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["kenan-1.0", "best-ga"])
+def test_the_push_off_takes_as_long_as_one_stepped_in_time(name: str) -> None:
+    robot = built(name)
+    leg = reflected_mass(robot.bodies, robot.linkage)
+    wind, rate, time, step = robot.spring.wind_rad, 0.0, 0.0, 2e-5
+    while wind > 0.0:
+        inertia, slope, weight = (float(value) for value in leg.at(np.array(wind)))
+        rate -= step * (robot.spring.torque_nm(-wind) + weight + 0.5 * slope * rate**2) / inertia
+        wind += step * rate
+        time += step
+    assert leg.push_off_s(robot.spring, 0.0) == pytest.approx(time, rel=0.02)

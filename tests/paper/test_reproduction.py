@@ -6,7 +6,7 @@ from support import needs
 from jumpcad.bundle.page import compared_of
 from jumpcad.design import load_design
 from jumpcad.files import template_names
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.paper.reproduction import HYPERPARAMETERS, PUBLISHED_RESULTS, Reproduction, reproduce
 from jumpcad.simulation import Settings, simulate
 

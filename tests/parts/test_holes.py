@@ -25,9 +25,9 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.foot import drawing as foot
 from jumpcad.robot.leg import drawing as links
 from jumpcad.robot.robot import Robot
-from jumpcad.solids.finish import to_trimesh
 from jumpcad.solids.outline import rectangle
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.stl import to_trimesh
 from jumpcad.workshop import load_workshop
 
 

@@ -7,8 +7,7 @@ from manifold3d import Manifold, Mesh
 from support.built import LONG_TOES, built, geared
 
 from jumpcad.robot.robot import Robot
-from jumpcad.solids.finish import faults
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import faults, write_stl
 
 FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 """Of a binary STL file, after a header of 80 bytes and the number of facets (4 bytes)."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.each import each
 
-from jumpcad.printing import runs
+from jumpcad.printing import layers
 from jumpcad.printing.layer_mass import line_spacing_mm, mass_properties, printed_moments, sliced
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.outline import disc, rectangle, tapered_bar
@@ -179,7 +179,7 @@ def test_layers_that_change_little_by_little_are_as_if_each_were_taken_by_itself
     rail = tapered_bar((0.0, 5.0), (70.0, 4.0), 10.0, 7.0) - disc(3.2, (0.0, 5.0))
     shape = Blocks((toe, Bar(rail, ((5.0, 9.0),))))
     together = mass_properties(shape, 1.0, process, 0.4)
-    monkeypatch.setattr(runs, "ALIKE_LAYERS", 1)
+    monkeypatch.setattr(layers, "ALIKE_LAYERS", 1)
     apart = mass_properties(Turned(shape, 0.0), 1.0, process, 0.4)
     assert together.mass_kg == pytest.approx(apart.mass_kg, rel=6e-3)
     assert np.diag(together.inertia_kg_m2) == pytest.approx(np.diag(apart.inertia_kg_m2), rel=1e-2)

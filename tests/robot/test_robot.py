@@ -7,8 +7,8 @@ import pytest
 from support.built import LONG_TOES, built, geared
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 
 ROBOTS = {"kenan-2.0": lambda: built("kenan-2.0"), LONG_TOES: lambda: built(LONG_TOES), "two pairs of gears": geared}

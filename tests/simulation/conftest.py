@@ -7,7 +7,7 @@ from support.flights import Flight, make_lopsided
 from support.places import DATA
 
 from jumpcad.design import PARAMETERS, Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 
 TABLE = DATA / "reference_flights.csv"

@@ -13,7 +13,7 @@ from support.built import built
 from support.flights import Flight
 
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, engines, simulate
 from jumpcad.simulation.engines import default_engine, engine_named, require_engine

@@ -10,9 +10,9 @@ from jumpcad.building import build
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.mechanism.model import Mechanism
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.flight import obstacles
 from jumpcad.workshop import load_workshop

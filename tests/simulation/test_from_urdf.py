@@ -18,7 +18,7 @@ from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation.from_urdf import robot_from_urdf
 

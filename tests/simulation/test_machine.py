@@ -11,9 +11,9 @@ from support.machines import PAD_NM_PER_RAD, STOP_RAD, let_go, machine, one_side
 
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import BODY_NAMES, FOOT, Mechanism
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Jump, Settings, load_settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics

@@ -14,7 +14,7 @@ from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.engines import default_engine
 from jumpcad.simulation.planar import PlanarEngine, PlanarRun, PlanarWorld, touchdown
-from jumpcad.simulation.planar_state import PlanarMotion
+from jumpcad.simulation.planar_model import PlanarMotion
 
 FINE = load_settings("fine")
 

@@ -12,7 +12,7 @@ import pytest
 
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar_kernel import compiled
-from jumpcad.simulation.planar_state import Inertia
+from jumpcad.simulation.planar_model import Inertia
 
 WITHOUT_NUMBA = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
 PROGRAM = """

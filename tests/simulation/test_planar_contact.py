@@ -11,7 +11,7 @@ from support.planar import FINE, NO_CONTACT, model_of, moving, with_damping, wor
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics
-from jumpcad.simulation.planar_state import Inertia, PlanarMotion, Stance
+from jumpcad.simulation.planar_model import Inertia, PlanarMotion, Stance
 from jumpcad.transforms import Array
 
 

@@ -9,16 +9,16 @@ from support.machines import PAD_NM_PER_RAD, PINS_M, STOP_RAD, one_sided, rubbin
 from support.planar import FINE, NO_CONTACT, model_of, moving, turn_of, with_damping, world_at
 
 from jumpcad.design import load_design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.mechanics import Mechanics, State
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.simulation.planar_state import Contact, PlanarMotion, Stance
+from jumpcad.simulation.planar_model import Contact, PlanarMotion, Stance
 from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array
 

@@ -9,7 +9,7 @@ import pytest
 from scipy import stats
 from support.built import built
 
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.simulation.mechanics import StopPad
 from jumpcad.simulation.prior import PIN_FRICTION, QUANTILES, SPRING_EFFICIENCY, Prior, sobol
 

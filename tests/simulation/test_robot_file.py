@@ -8,8 +8,8 @@ from support.places import ROOT
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.model import Multibody
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.robot_file import load_robot
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.simulation import Settings, load_settings, simulate
 from jumpcad.simulation.simulator import divided
 

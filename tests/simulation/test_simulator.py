@@ -4,8 +4,7 @@ import pytest
 from support import needs
 
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.mechanism.variants import with_spring_factor
+from jumpcad.mechanism.variants import capsule_robot, with_spring_factor
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 

@@ -5,7 +5,7 @@ from support import needs
 from support.built import built
 
 from jumpcad.exporters.mjcf import SUBSTEPS
-from jumpcad.mechanism.reflected import leg_inertia_kg_m2
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.simulation import Settings
 from jumpcad.simulation.engines import engine_named
 

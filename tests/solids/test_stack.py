@@ -7,9 +7,9 @@ from manifold3d import Error
 from support.stacks import random_stack
 
 from jumpcad.errors import JumpcadError
-from jumpcad.solids.finish import faults, to_trimesh
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
 from jumpcad.solids.stack import Stack
+from jumpcad.solids.stl import faults, to_trimesh
 
 
 def stl(stack):

@@ -5,11 +5,12 @@ import io
 import numpy as np
 import pytest
 import trimesh
+from manifold3d import Manifold, OpType
 
-from jumpcad.solids.finish import to_trimesh
-from jumpcad.solids.outline import ring
+from jumpcad.errors import CannotBuildError
+from jumpcad.solids.outline import disc, hole, rectangle, ring
 from jumpcad.solids.stack import Stack
-from jumpcad.solids.stl import write_stl
+from jumpcad.solids.stl import faults, finished, require_part, to_trimesh, write_stl
 
 
 def hub():
@@ -37,3 +38,50 @@ def test_normals_are_those_of_the_corners_that_are_written():
     normal, corners = facets["vectors"][:, 0], facets["vectors"][:, 1:].astype(float)
     right = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     np.testing.assert_allclose(normal, right / np.linalg.norm(right, axis=1)[:, None], atol=1e-6)
+
+
+def stl(mesh):
+    return trimesh.exchange.stl.export_stl(mesh)
+
+
+def test_a_box_is_a_part():
+    assert faults(stl(trimesh.creation.box((1, 2, 3)))) == []
+
+
+def test_a_missing_triangle_is_found():
+    mesh = trimesh.creation.box((1, 2, 3))
+    mesh.faces = mesh.faces[1:]
+    assert faults(stl(mesh)) == ["its surface has edges that do not join two triangles"]
+
+
+def test_a_part_inside_out_is_found():
+    mesh = trimesh.creation.box((1, 1, 1))
+    mesh.faces = mesh.faces[:, ::-1]
+    assert faults(stl(mesh)) == ["its volume is -1 mm³"]
+
+
+def test_a_triangle_turned_over_is_found():
+    mesh = trimesh.creation.box((1, 1, 1))
+    mesh.faces[0] = mesh.faces[0, ::-1]
+    assert faults(stl(mesh)) == ["its surface is turned inside out in places"]
+
+
+def test_two_pieces_are_found_even_when_they_overlap():
+    two = trimesh.util.concatenate([trimesh.creation.box((2, 2, 2)), trimesh.creation.icosphere(radius=0.5)])
+    assert faults(stl(two)) == ["it is 2 pieces"]
+    with pytest.raises(CannotBuildError, match="part toe cannot be printed: it is 2 pieces"):
+        require_part("toe", stl(two))
+
+
+def test_boxes_that_touch_along_an_edge_are_found():
+    boxes = [Manifold.cube((1, 1, 1)), Manifold.cube((1, 1, 1)).translate((1, 1, 0))]
+    assert faults(stl(to_trimesh(Manifold.batch_boolean(boxes, OpType.Add)))) != []
+
+
+def test_stacks_in_two_directions_finish_as_one_part():
+    side = rectangle((60.0, 8.0), (25.0, 4.0)) - hole(3.2, (40.0, 4.0))
+    rails = [side.extrude(3.0).rotate((90.0, 0.0, 0.0)).translate((0.0, y, 0.0)) for y in (8.0, -5.0)]
+    toe = Manifold.batch_hull([disc(8.0).extrude(8.0), disc(5.0, (-50.0, 30.0)).extrude(4.0)])
+    web = rectangle((10.0, 14.0)).extrude(4.0)
+    solid = finished(Manifold.batch_boolean([*rails, toe, web], OpType.Add))
+    assert faults(stl(to_trimesh(solid))) == []

@@ -15,8 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
-from jumpcad.steps.assembly_order import TOOLS, Move
-from jumpcad.steps.assembly_steps import REST, SIDES, assembly_steps, travel
+from jumpcad.steps.assembly_steps import REST, SIDES, TOOLS, Move, assembly_steps, travel
 from jumpcad.steps.step_views import step_views
 from jumpcad.transforms import pose_about_y, pose_about_z
 from jumpcad.workshop import load_workshop

@@ -9,8 +9,8 @@ import pytest
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.stock_spring import springs_on_leg
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.settings import Settings
 from jumpcad.simulation.planar import PlanarWorld
 from jumpcad.strength.loads import (

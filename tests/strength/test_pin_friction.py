@@ -8,7 +8,7 @@ from support.decimals import decimals
 from support.machines import PINS_M, rubbing
 
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.strength.loads import TILTING, MovingMass, pin_torque_nm, push_off
 
 

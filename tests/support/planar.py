@@ -6,8 +6,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings
 from jumpcad.simulation import planar_kernel as kernel
 from jumpcad.simulation.planar import PlanarWorld
-from jumpcad.simulation.planar_model import PlanarModel, planar_model
-from jumpcad.simulation.planar_state import Contact, Losses, PlanarMotion, StepState
+from jumpcad.simulation.planar_model import Contact, Losses, PlanarModel, PlanarMotion, StepState, planar_model
 
 NO_CONTACT = Contact(-1, -1, kernel.SEPARATE, 0.0, 0.0, 0.0)
 FINE = Settings(dt_s=1 / 16000)

@@ -4,9 +4,9 @@ from collections import defaultdict
 
 from jumpcad.building import build
 from jumpcad.design import Design, load_design
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.mass import combined
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.parts.part import Drawing, Part, Placement, lying_on_left, lying_on_right, lying_stack
 from jumpcad.parts.purchased import bought
 from jumpcad.robot.robot import Robot

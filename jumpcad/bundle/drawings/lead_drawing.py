@@ -61,13 +61,8 @@ def leads_svg(robot: Robot) -> str:
     plates = [plate for side, left in places.items() if (plate := _plate(robot, leads, side, left, width))]
     trays = _trays(robot, leads, max((plate["bottom"] + 4.0 for plate in plates), default=0.0) + MARGIN_MM)
     values = {
-        "width": WIDTH_MM,
-        "plates": plates,
-        "trays": trays,
-        "text_y": MARGIN_MM + 3.0,
-        "badge": BADGE_MM,
-        "n": _n,
-    }
+        "width": WIDTH_MM, "plates": plates, "trays": trays, "text_y": MARGIN_MM + 3.0, "badge": BADGE_MM, "n": _n,
+    }  # fmt: skip
     return fill("drawings/leads.svg.j2", values)
 
 
@@ -187,17 +182,12 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
         if end not in pads and end.part not in OUTSIDE
     }
     return {
-        "left": left,
-        "top": top,
-        "plates": plates,
-        "boxes": boxes,
-        "frame": frame,
+        "left": left, "top": top, "plates": plates, "boxes": boxes, "frame": frame,
         "leads": [_lines(view, lead, 2, above, named) for lead in leads],
         "pads": [(view.on(at)[0], end.pin, end in ends, at[0] > middle) for end, at in pads.items()],
         "unknown": [role for role, board in robot.electrical_parts.boards.items() if not (board.left or board.right)],
-        "badges": _badges(view, leads, frame),
-        "height": float(frame[1][1]) + MARGIN_MM,
-    }
+        "badges": _badges(view, leads, frame), "height": float(frame[1][1]) + MARGIN_MM,
+    }  # fmt: skip
 
 
 def _ys_between(points_mm: Array, back: float, front: float) -> Iterator[float]:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
+from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
@@ -56,23 +56,13 @@ def _sheet(robot: Robot, spring: TorsionSpring, side: str, hand: str) -> str:
     lines = (*arms_of(spring, hand), arms_of(spring, hand, spring.wound_rad)[0])
     far, near, loaded = ((scale * line + middle).ravel().tolist() for line in lines)
     values = {
-        "spring": spring,
-        "page_mm": PAGE_MM,
+        "spring": spring, "page_mm": PAGE_MM,
         "rows": [(name, allowed(value)) for name, value in requirements(robot, spring, side, hand)],
-        "middle": middle.tolist(),
-        "side_view": SIDE_VIEW_MM,
-        "cross_mm": CROSS_MM,
-        "mean": scale * spring.arms.mean_mm,
-        "wire": scale * spring.wire_mm,
-        "outer": scale * spring.outer_diameter_mm,
-        "turns": math.ceil(spring.turns),
-        "far": far,
-        "near": near,
-        "loaded": loaded,
-        "free_deg": math.degrees(spring.free_arm_angle_rad),
-        "scale": scale_in_words(spring),
-        "hand": hand,
-    }
+        "middle": middle.tolist(), "side_view": SIDE_VIEW_MM, "cross_mm": CROSS_MM, "mean": scale * spring.arms.mean_mm,
+        "wire": scale * spring.wire_mm, "outer": scale * spring.outer_diameter_mm, "turns": math.ceil(spring.turns),
+        "far": far, "near": near, "loaded": loaded, "free_deg": math.degrees(spring.free_arm_angle_rad),
+        "scale": scale_in_words(spring), "hand": hand,
+    }  # fmt: skip
     return fill("drawings/spring_sheet.svg.j2", values)
 
 

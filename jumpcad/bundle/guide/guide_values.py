@@ -12,10 +12,10 @@ from jumpcad.building.bom import Bill
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.spring_sheet import scale_in_words
 from jumpcad.bundle.drawings.wiring import wires
+from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
-from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.socket import window_mm
@@ -27,8 +27,7 @@ from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
 from jumpcad.simulation import headline
-from jumpcad.steps.assembly_order import ORDER
-from jumpcad.steps.assembly_steps import Step
+from jumpcad.steps.assembly_steps import ORDER, Step
 from jumpcad.steps.step_views import motor_sense
 
 REAMED_MM = 0.1
@@ -50,16 +49,11 @@ def inspection_values(robot: Robot) -> dict[str, Any]:
     """Return what accepts a spring (g, °, mm, MPa), by the names that templates use."""
     spring, (least, most) = robot.layout.drive.spring, torque_shares(robot)
     return {
-        "reamed_mm": robot.layout.axle_mm + REAMED_MM,
-        "drawn_scale": scale_in_words(spring),
-        "shank_mm": math.floor(2.0 * spring.mandrel_mm) / 2.0,
-        "grams": loaded_grams(spring),
-        "least_share": least,
-        "most_share": most,
-        "early_share": early_torque_share(robot),
-        "weak_share": least_energy_share(robot),
+        "reamed_mm": robot.layout.axle_mm + REAMED_MM, "drawn_scale": scale_in_words(spring),
+        "shank_mm": math.floor(2.0 * spring.mandrel_mm) / 2.0, "grams": loaded_grams(spring), "least_share": least,
+        "most_share": most, "early_share": early_torque_share(robot), "weak_share": least_energy_share(robot),
         "scale_kg": scale_range_kg(robot),
-    }
+    }  # fmt: skip
 
 
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
@@ -126,25 +120,17 @@ def _springs(robot: Robot) -> dict[str, Any]:
     per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {
-        "spring": spring,
-        "stock": robot.workshop.stock_spring,
-        "loadings": robot.workshop.safety.jumps,
-        "asked_rate": robot.design.stiffness_nmm_per_deg / 2.0,
-        "free_deg": math.degrees(spring.free_arm_angle_rad),
+        "spring": spring, "stock": robot.workshop.stock_spring, "loadings": robot.workshop.safety.jumps,
+        "asked_rate": robot.design.stiffness_nmm_per_deg / 2.0, "free_deg": math.degrees(spring.free_arm_angle_rad),
         "wound_deg": math.degrees(spring.wound_rad),
         "loaded_deg": math.degrees(spring.free_arm_angle_rad - spring.wound_rad),
-        "preload_deg": math.degrees(spring.preload_rad),
-        "preload_adds_nmm": spring.torque_nmm - 1000.0 * without,
-        "narrower_deg": narrower,
-        "wider_deg": wider,
-        "slack_deg": math.ceil(max(0.0, -at_stop) - ROUND_OFF_DEG),
+        "preload_deg": math.degrees(spring.preload_rad), "preload_adds_nmm": spring.torque_nmm - 1000.0 * without,
+        "narrower_deg": narrower, "wider_deg": wider, "slack_deg": math.ceil(max(0.0, -at_stop) - ROUND_OFF_DEG),
         "most_slack_deg": math.ceil(max(0.0, narrower - at_stop) - ROUND_OFF_DEG),
-        "arm_n": max(1.0, (at_stop + wider) * per_deg_n),
-        "stop_deg": max(0.0, at_stop),
-        "stop_n": max(0.0, at_stop) * per_deg_n,
-        "energy_j": robot.spring.energy_j,
+        "arm_n": max(1.0, (at_stop + wider) * per_deg_n), "stop_deg": max(0.0, at_stop),
+        "stop_n": max(0.0, at_stop) * per_deg_n, "energy_j": robot.spring.energy_j,
         "push_ms": 1000.0 * robot.release.push_off_s,
-    }
+    }  # fmt: skip
 
 
 def _sizes(robot: Robot) -> dict[str, Any]:
@@ -155,25 +141,15 @@ def _sizes(robot: Robot) -> dict[str, Any]:
     window = window_mm(robot.layout.drive.train.motor)
     both = {1: "counter-clockwise", -1: "clockwise"}
     return {
-        "articles": articles,
-        "tube_mm": heights,
-        "axle_mm": robot.layout.axle_mm,
-        "axle_length_mm": high - low,
-        "pin_hole_mm": robot.layout.pin_hole.diameter_mm,
-        "felt": robot.layout.sensor,
+        "articles": articles, "tube_mm": heights, "axle_mm": robot.layout.axle_mm, "axle_length_mm": high - low,
+        "pin_hole_mm": robot.layout.pin_hole.diameter_mm, "felt": robot.layout.sensor,
         "left_plate_mm": float(np.ptp(robot.layout.lateral.left_plate)),
-        "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM),
-        "clamp_mm": MOTOR_CLAMP_MM,
-        "window_mm": window,
-        "block_mm": (window[0] + 2.0 * _prong_mm(robot), window[1] + PRONG_ENDS_MM),
-        "m3_nm": TORQUE_M3_NM,
-        "m2_nm": TORQUE_M2_NM,
-        "plastic_nm": TORQUE_PLASTIC_NM,
-        "press_n": PRESS_N,
-        "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad),
-        "cam_turn": both[1],
+        "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM), "clamp_mm": MOTOR_CLAMP_MM,
+        "window_mm": window, "block_mm": (window[0] + 2.0 * _prong_mm(robot), window[1] + PRONG_ENDS_MM),
+        "m3_nm": TORQUE_M3_NM, "m2_nm": TORQUE_M2_NM, "plastic_nm": TORQUE_PLASTIC_NM, "press_n": PRESS_N,
+        "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad), "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
-    }
+    }  # fmt: skip
 
 
 def _prong_mm(robot: Robot) -> float:

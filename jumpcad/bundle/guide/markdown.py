@@ -29,12 +29,9 @@ def write_guide(robot: Robot, pictures: Sequence[str] = ()) -> dict[str, str]:
         for number, step in enumerate(steps, start=1)
     ]
     values = {
-        **guide_values(robot, steps, bill),
-        "bill": bill_text(bill),
-        "steps": shown,
-        "wired": next(number for number, step, *_ in shown if step.key == LAST_WIRED),
-        "pictures": pictures,
-    }
+        **guide_values(robot, steps, bill), "bill": bill_text(bill), "steps": shown,
+        "wired": next(number for number, step, *_ in shown if step.key == LAST_WIRED), "pictures": pictures,
+    }  # fmt: skip
     return {f"{part}.md": render(f"guides/{part}.md.j2", values) for part in PARTS}
 
 

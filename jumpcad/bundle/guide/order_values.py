@@ -125,14 +125,11 @@ def _rods(robot: Robot, bill: Bill) -> list[dict[str, Any]]:
     for (kind, diameter, grooves), cut in pieces.items():
         needed = sum(count * (length + SAW_MM) for count, length in cut) / 1000.0
         row = {
-            "kind": f"{kind} {diameter} mm",
-            "cut": cut,
-            "short_mm": ROD_SHORT_MM,
+            "kind": f"{kind} {diameter} mm", "cut": cut, "short_mm": ROD_SHORT_MM,
             "from_m": next((metres for metres in ROD_M if metres >= needed), float(math.ceil(needed))),
-            "steel": rods[kind].density_g_cm3 >= STEEL_FROM_G_CM3,
-            "tube": rods[kind].bore_share > 0.0,
+            "steel": rods[kind].density_g_cm3 >= STEEL_FROM_G_CM3, "tube": rods[kind].bore_share > 0.0,
             "grooves": grooves,
-        }
+        }  # fmt: skip
         if grooves:
             across, wide, end = map(float, re.findall(r"[\d.]+", grooves))
             row["groove_mm"], row["groove_off_mm"] = (across, wide), GROOVE_OFF_MM
@@ -196,12 +193,9 @@ def _screw_axles(robot: Robot) -> dict[str, Any]:
     turns = high - lateral.leg[0]
     enough = (one for one in stock.lengths_mm if turns <= one - SCREW_THREAD_MM and one - NUT_THREAD_MM <= high - low)
     return {
-        "rods": len(robot.layout.axles) + 1,
-        "rod_mm": high - low,
-        "length_mm": length,
-        "turns_mm": turns,
+        "rods": len(robot.layout.axles) + 1, "rod_mm": high - low, "length_mm": length, "turns_mm": turns,
         "longer_mm": next(enough, None) if length - SCREW_THREAD_MM < turns else None,
-    }
+    }  # fmt: skip
 
 
 def _switch(robot: Robot) -> dict[str, Any] | None:
@@ -213,9 +207,6 @@ def _switch(robot: Robot) -> dict[str, Any] | None:
     supply, most_nm = robot.supply, robot.workshop.safety.motor_torque_max_nm
     blocked_a = supply.driven(robot.layout.drive.train.motor, supply.full_v, most_nm).stall_current_a
     return {
-        "article": fittings.switch,
-        "holes_mm": [2.0 * end for end in SWITCH_SLOT_MM],
-        "out_mm": plate + SLIDER_MM,
-        "blocked_a": blocked_a,
-        "reaches": plate + SLIDER_MM <= SLIDER_REACHES_MM,
-    }
+        "article": fittings.switch, "holes_mm": [2.0 * end for end in SWITCH_SLOT_MM], "out_mm": plate + SLIDER_MM,
+        "blocked_a": blocked_a, "reaches": plate + SLIDER_MM <= SLIDER_REACHES_MM,
+    }  # fmt: skip

@@ -54,7 +54,7 @@ class PrintedPad:
     @cached_property
     def mesh(self) -> "trimesh.Trimesh":
         """Mesh in printing orientation: it lies on its side (mm)."""
-        from jumpcad.solids.finish import to_trimesh
+        from jumpcad.solids.stl import to_trimesh
 
         return to_trimesh(self.item.solid)
 

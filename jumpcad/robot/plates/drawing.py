@@ -19,8 +19,7 @@ from jumpcad.robot.plates.outline import blank_of, outline, pin_hole, tray_slots
 from jumpcad.robot.sensor.drawing import plate_opening, plate_pad
 from jumpcad.robot.stop.drawing import stop_slot
 from jumpcad.robot.train.motor_socket import ear_places, motor_box, socket_outline
-from jumpcad.solids.outline import Region, hole, rectangle, ring, union
-from jumpcad.solids.text import engravable
+from jumpcad.solids.outline import Region, engravable, hole, rectangle, ring, union
 from jumpcad.workshop import Workshop
 
 

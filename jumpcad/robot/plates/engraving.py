@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 
-from jumpcad.solids.outline import Region, contained, middle_of, rectangle
-from jumpcad.solids.text import text
+from jumpcad.solids.outline import Region, contained, middle_of, rectangle, text
 
 ENGRAVING_MM = 0.5
 TEXT_HEIGHTS_MM = (4.5, 3.5)

@@ -3,7 +3,7 @@
 from jumpcad.findings import Basis, Finding, at_most, higher
 from jumpcad.robot.load_case import IN_PLANE, load_case, stress_finding
 from jumpcad.robot.robot import Robot
-from jumpcad.solids.text import engravable
+from jumpcad.solids.outline import engravable
 
 BASIS = {
     "plate_seat": Basis(

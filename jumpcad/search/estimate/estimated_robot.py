@@ -20,13 +20,13 @@ from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, limit
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.space.sweep import legs_apart_mm
-from jumpcad.scene.extent import extent_m
+from jumpcad.scene.visuals import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
 """Figures of a standing robot, of which the largest is its size."""

@@ -16,12 +16,11 @@ import numpy as np
 from jumpcad.files import templates_folder
 
 PRESENTATION = (
-    "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/animation.",
-    "exporters/curves.", "exporters/dxf.", "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.",
-    "exporters/step.", "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.",
-    "printing/plates.", "printing/project.", "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.",
-    "scene/raster.", "scene/renderer.", "scene/shading.", "search/report/", "steps/step_", "studio/", "templates/",
-    "validation/",
+    "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/dxf.",
+    "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.", "exporters/step.",
+    "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "printing/plates.",
+    "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.", "scene/raster.", "scene/renderer.",
+    "search/report/", "steps/step_", "studio/", "templates/", "validation/",
 )  # fmt: skip
 """Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""
 FORKS = {"pybullet": "pybullet-arm64"}

@@ -15,9 +15,9 @@ from jumpcad.building.refusal import statics_refusal
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
-from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot, robot_figures, room_findings
 from jumpcad.search.models import robot_model
 from jumpcad.simulation import Settings, simulate

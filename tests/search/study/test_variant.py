@@ -9,7 +9,7 @@ from support.decimals import decimals
 
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.mechanism.capsule import capsule_robot
+from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.search.study.variant import (
     FLOOR,
     PARTS,
