@@ -4,19 +4,16 @@ import math
 from dataclasses import replace
 
 from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
-from jumpcad.building.bodies import bodies_of, friction_of, outlines_m
-from jumpcad.building.releasing import release_of
-from jumpcad.building.weighing import require_parts, weighed_part
+from jumpcad.building.bodies import bodies_of, friction_of, outlines_m, release_of, require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import for_bought_springs, springs_on_leg
-from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.drive.spring_choice import for_bought_springs, springs_on_leg
+from jumpcad.electronics.supply import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.robot.axles.axles import require_retention
-from jumpcad.robot.axles.spacers import require_axle
+from jumpcad.robot.axles.thing import require_axle, require_retention
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.foot.drawing import in_one_piece

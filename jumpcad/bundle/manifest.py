@@ -14,7 +14,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import read_json
 from jumpcad.files.names import Text
 from jumpcad.files.outputs import sha256
-from jumpcad.parts.mass_line import MassLine
+from jumpcad.parts.part import MassLine
 from jumpcad.plural import counted
 
 MANIFEST = "manifest.json"

@@ -9,10 +9,8 @@ from typing import Any, Generic, NoReturn, TypeVar
 from pydantic import PositiveFloat
 
 from jumpcad.catalogue.articles import AnyArticle, Article
-from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
-from jumpcad.catalogue.bars import LegBar
+from jumpcad.catalogue.bars import CageRod, ClevisPin, Clip, LegBar, Rod
 from jumpcad.catalogue.boards import Board
-from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, Kit, Motor
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.errors import JumpcadError

@@ -37,7 +37,7 @@ BASIS = {
         "(1 + safety.kick_reserve)·T ≤ min(safety.motor_torque_max_nm, torque at which a pinion's teeth reach "
         "strength_in_plane_mpa/s) (mN·m); T largest torque at the gear motor after the cam reaches the "
         "end of the dog's play, same cases as `release_energy`",
-        f"impacts with rebound: jumpcad/drive/blows.py; {MODEL}; teeth: Lewis",
+        f"impacts with rebound: jumpcad/drive/dog.py; {MODEL}; teeth: Lewis",
     ),
     "cam_corner": Basis(
         "energy as in `release_energy`, but over a worn corner ≥ release.energy_ratio_min (%); its radius ρ is that at "

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.drive.blows import largest_torques_nm
 from jumpcad.drive.corner import Corner
+from jumpcad.drive.dog import largest_torques_nm
 from jumpcad.mechanism.model import Spring
 from jumpcad.mechanism.reflected import ReflectedMass
 

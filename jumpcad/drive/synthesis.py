@@ -14,11 +14,10 @@ from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.corner import clear_window_rad
 from jumpcad.drive.dog import PLAY_MORE_RAD, Dog, free_play_rad
 from jumpcad.drive.gear_choice import least_tip_mm
+from jumpcad.drive.motor import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
-from jumpcad.drive.spring_choice import synthesise_spring
-from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
+from jumpcad.drive.spring_choice import fitted_spring, rate_finding, springs_on_leg, synthesise_spring
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
-from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, higher
 

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from jumpcad.catalogue import Motor
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_choice import by_cost
-from jumpcad.drive.gear_pair import GearPair
-from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
-from jumpcad.drive.train_limits import TrainLimits
+from jumpcad.drive.gears import GearPair
+from jumpcad.drive.motor import EMPTY_SHARE, TrainLimits, allowed_nm, free_speed_rad_s, winding
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import SHOWN_AS, Basis, Finding, Remedy, at_most, higher, limit, lower
 

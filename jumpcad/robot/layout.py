@@ -19,20 +19,19 @@ from jumpcad.dimensions import (
     STANDOFF_PAD_MM,
 )
 from jumpcad.drive import Drive
-from jumpcad.drive.socket import cap_ear_mm
+from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.robot.electronics.fitting_places import Fittings, fittings_of
+from jumpcad.robot.electronics.fittings import Fittings, fittings_of
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.electronics.tray_places import electronics_obstacle, standoff_places, tray_place
-from jumpcad.robot.leg.pin_hole import PinHole, pin_hole
+from jumpcad.robot.leg.place import PinHole, pin_hole
 from jumpcad.robot.sensor.place import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.robot.sizing import Sections, beside_leg_mm
 from jumpcad.robot.space.lateral import Lateral, lateral_stack
-from jumpcad.robot.space.obstacles import axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
 from jumpcad.robot.space.room import Obstacle, disc, shortfall
-from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.space.sweep import axle_obstacle, cam_obstacles, hub_obstacles, legs_apart_mm, swept_obstacles
 from jumpcad.robot.springs.place import spring_boss_mm, spring_obstacles, spring_pin_place
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.robot.train.place import idler_obstacles, require_gear_room, require_shaft, train_obstacles, train_places

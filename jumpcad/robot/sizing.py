@@ -13,7 +13,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
 from jumpcad.robot.stop.strength import BLOW_FACTOR, PEAK_SHARE

@@ -12,7 +12,7 @@ from jumpcad.catalogue import Bearing, Catalogue, Washer
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop

@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.model import BODY, Mechanism, Spring
 from jumpcad.transforms import Array, turned_about_y

@@ -18,14 +18,14 @@ from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
-from jumpcad.drive.socket import window_mm
+from jumpcad.drive.motor import window_mm
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.springs.wire import ORDERED
+from jumpcad.robot.springs.thing import ORDERED
 from jumpcad.simulation import headline
 from jumpcad.steps.assembly_order import ORDER
 from jumpcad.steps.assembly_steps import Step

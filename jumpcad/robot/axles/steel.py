@@ -9,8 +9,7 @@ from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
-from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
-from jumpcad.strength.stress import pin_stress_mpa
+from jumpcad.strength.stress import YIELD_SHARE, pin_limit_mpa, pin_stress_mpa, spring_jumps, spring_share
 
 PINS = ("foot_pin", "leg_pin")
 """Clevis pins or rods; another bought.axle changes them only with clips."""

@@ -16,8 +16,7 @@ from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, higher
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import TURN_STEPS, around, best_place
-from jumpcad.robot.space.room import Obstacle, box_obstacle, disc, shortfall
+from jumpcad.robot.space.room import TURN_STEPS, Obstacle, around, best_place, box_obstacle, disc, shortfall
 from jumpcad.transforms import Array
 
 GEAR_PLAY_MM = 0.1

@@ -16,7 +16,7 @@ from jumpcad.dimensions import (
     ROLLER_WASHER_MM,
     TERMINALS_MM,
 )
-from jumpcad.drive.socket import front_length_mm
+from jumpcad.drive.motor import front_length_mm
 from jumpcad.solids.slab import Interval
 
 HEAD_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM + 0.2

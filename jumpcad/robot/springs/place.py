@@ -19,8 +19,7 @@ from jumpcad.drive import TorsionSpring
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher, lower
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import around, best_place
-from jumpcad.robot.space.room import Obstacle, bar, clearance, disc
+from jumpcad.robot.space.room import Obstacle, around, bar, best_place, clearance, disc
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

@@ -13,12 +13,11 @@ from jumpcad.dimensions import (
     SPACER_RADIUS_MM,
 )
 from jumpcad.drive import Drive
-from jumpcad.drive.socket import socket_half_mm
+from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import best_place, ring_candidates
-from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, disc, shortfall
+from jumpcad.robot.space.room import Obstacle, best_place, box_obstacle, clearance, disc, ring_candidates, shortfall
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

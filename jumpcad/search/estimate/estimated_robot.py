@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from jumpcad.design import Design
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.capsule import capsule_robot
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
