@@ -18,7 +18,7 @@ BASIS = {
     "foot_clearance": Basis(
         f"least distance of the foot from what the body carries, springs loaded ≥ {FOOT_GAP_MM:g} mm",
         f"solids, exact; {FOOT_GAP_MM:g} mm: judgement, as for the ground",
-    ),
+    )
 }
 
 
@@ -64,7 +64,7 @@ RIGHTING_BASIS = {
         f"least share of stable poses on the feet ≥ {RIGHTED:g} %, springs loaded, the centre of mass as computed and "
         "moved by 3 mm up, 4 mm along, 2 mm across",
         "Goldberg et al., Part pose statistics (1999); limit: judgement",
-    ),
+    )
 }
 
 

@@ -20,8 +20,7 @@ UNLIMITED = 1e3
 
 
 @pytest.mark.parametrize(
-    ("name", "rpm", "stall_nm", "stall_a"),
-    [("n20-298", 26.7, 0.1165, 0.222), ("n20-298-mp", 41.8, 0.1346, 0.413)],
+    ("name", "rpm", "stall_nm", "stall_a"), [("n20-298", 26.7, 0.1165, 0.222), ("n20-298-mp", 41.8, 0.1346, 0.413)]
 )
 def test_motors_of_6_v_on_one_cell(name: str, rpm: float, stall_nm: float, stall_a: float) -> None:
     """By hand with the linear model at 3.7 V, R = 6 V over the stall current: LP 20 and 360 mA, MP 70 and 670 mA."""

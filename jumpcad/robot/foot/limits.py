@@ -169,7 +169,7 @@ GROUND_BASIS = {
         f"least height above the ground of body, roller and legs' ends, from loaded to rest ≥ {GROUND_GAP_MM:g} mm + "
         "safety.gap_reserve_mm (mm), the foot flat",
         f"geometry; {GROUND_GAP_MM:g} mm: judgement, play of the joints and flexing of legs and foot",
-    ),
+    )
 }
 
 

@@ -165,7 +165,7 @@ BASIS = {
         f"F/(d·t) ≤ the body's {IN_PLANE}; F what the more loaded plate carries of an axle or the springs' pin, a "
         "simple beam loaded as for `leg_axle_strength` and its like, d axle, t depth of its seat in one plate",
         "statics of two supports; bearing pressure (Shigley 8-12)",
-    ),
+    )
 }
 
 
@@ -223,11 +223,4 @@ def standoffs(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
         yield placed_screw(f"standoff_{number}_screw_right", BODY, place, right, -1.0, screw, catalogue)
 
 
-PLATES = Thing(
-    plates,
-    standoffs,
-    (
-        Check(seat_finding, BASIS),
-        Check(engraving_findings, ENGRAVING_BASIS, cheap=False),
-    ),
-)
+PLATES = Thing(plates, standoffs, (Check(seat_finding, BASIS), Check(engraving_findings, ENGRAVING_BASIS, cheap=False)))

@@ -8,14 +8,7 @@ lies across, its shaft to the left.
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import (
-    BUSHING_PLAY_MM,
-    GAP_MM,
-    MOTOR_CAP_MM,
-    ROLLER_HEAD_MM,
-    ROLLER_WASHER_MM,
-    TERMINALS_MM,
-)
+from jumpcad.dimensions import BUSHING_PLAY_MM, GAP_MM, MOTOR_CAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM, TERMINALS_MM
 from jumpcad.drive.motor import front_length_mm
 from jumpcad.solids.slab import Interval
 

@@ -8,13 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from jumpcad.dimensions import (
-    CLEAR_MM,
-    GAP_MM,
-    SPRING_BOSS_MIN_MM,
-    SPRING_BOSS_MM,
-    SPRING_BOSS_WALL_MM,
-)
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPRING_BOSS_MIN_MM, SPRING_BOSS_MM, SPRING_BOSS_WALL_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher, lower

@@ -74,12 +74,7 @@ def _pose(layout: Layout) -> Array:
     behind, along = stop.behind, stop.along
     x, z = stop.seat_mm - STOP_PAD_MM / 2.0 * along
     return np.array(
-        [
-            [0.0, -behind[0], along[0], x],
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, -behind[1], along[1], z],
-            [0.0, 0.0, 0.0, 1.0],
-        ]
+        [[0.0, -behind[0], along[0], x], [1.0, 0.0, 0.0, 0.0], [0.0, -behind[1], along[1], z], [0.0, 0.0, 0.0, 1.0]]
     )
 
 

@@ -6,12 +6,7 @@ In-plane places are in the body frame's x-z plane.
 import numpy as np
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import (
-    CAP_EAR_MM,
-    CLEAR_MM,
-    GAP_MM,
-    SPACER_RADIUS_MM,
-)
+from jumpcad.dimensions import CAP_EAR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
