@@ -46,12 +46,8 @@ class Dog:
     The cam's two jaws are equal but not opposite to each other, and so are the gear's pockets: the gear fits in one
     position only. Of the gear's own jaws, which hub and web hold on either side, one is narrower for it.
 
-    Attributes
-    ----------
-    play_rad
-        How far the cam can run ahead of the gear.
-    outer_mm
-        Diameter of the cam's boss and jaws.
+    - `play_rad`: How far the cam can run ahead of the gear.
+    - `outer_mm`: Diameter of the cam's boss and jaws.
     """
 
     play_rad: float
@@ -118,18 +114,12 @@ def largest_torques_nm(
 ) -> tuple[float, float]:
     """Return the largest torque between cam and gear, and between gear and rotor (N·m, at the cam).
 
-    Parameters
-    ----------
-    masses_kg_m2
-        Moments of inertia of cam, gear and rotor.
-    speed_rad_s, motor_rad_s
-        Speed of the cam when it reaches the gear, and of the motor, which turns the gear and keeps running.
-    backlash_rad
-        Angle by which the gear can run ahead of the rotor.
-    stiffness_nm_per_rad
-        Contact stiffness of each pair.
-    rebound
-        Coefficient of restitution of each pair.
+    - `masses_kg_m2`: Moments of inertia of cam, gear and rotor.
+    - `speed_rad_s`, `motor_rad_s`: Speed of the cam when it reaches the gear, and of the motor, which turns the gear
+      and keeps running.
+    - `backlash_rad`: Angle by which the gear can run ahead of the rotor.
+    - `stiffness_nm_per_rad`: Contact stiffness of each pair.
+    - `rebound`: Coefficient of restitution of each pair.
     """
     cam_kg_m2, gear_kg_m2, rotor_kg_m2 = masses_kg_m2
     k, share = stiffness_nm_per_rad, 2.0 * damping_share(rebound)

@@ -48,14 +48,10 @@ def least_shift(teeth: int) -> float:
 class Gear:
     """One spur gear; the profile has a tooth centred on +x.
 
-    Attributes
-    ----------
-    shift
-        Profile shift in modules.
-    thinning_mm
-        By how much its teeth are thinner than a backlash-free pair's, on the pitch circle (its share of the backlash).
-    tip_cut_mm
-        Taken off the tip radius, where shifts would reduce the clearance to the mating root.
+    - `shift`: Profile shift in modules.
+    - `thinning_mm`: By how much its teeth are thinner than a backlash-free pair's, on the pitch circle (its share of
+      the backlash).
+    - `tip_cut_mm`: Taken off the tip radius, where shifts would reduce the clearance to the mating root.
     """
 
     teeth: int
@@ -167,10 +163,7 @@ class Gear:
 class GearPair:
     """Two gears in mesh.
 
-    Attributes
-    ----------
-    centre_distance_mm
-        Working distance: that of the shifts without backlash; the backlash is in the thinned teeth.
+    - `centre_distance_mm`: Working distance: that of the shifts without backlash; the backlash is in the thinned teeth.
     """
 
     pinion: Gear
@@ -229,10 +222,7 @@ def gear_pair(
 ) -> GearPair:
     """Return a pair with the least shifts that avoid undercut, and tips cut to the standard clearance.
 
-    Parameters
-    ----------
-    backlash_circumferential_mm
-        For the pair, at the pitch circle; each gear's teeth are thinned by half of it.
+    - `backlash_circumferential_mm`: For the pair, at the pitch circle; each gear's teeth are thinned by half of it.
     """
     shifts = [max(0.0, least_shift(teeth)) for teeth in (pinion_teeth, wheel_teeth)]
     total = pinion_teeth + wheel_teeth

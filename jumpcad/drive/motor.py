@@ -31,48 +31,32 @@ FACE_WIDTHS_MM = (5.0, 6.5, 8.0)
 class TrainLimits:
     """The limits of motor and gears. Lengths in mm; values that a workshop gives have no default here.
 
-    Attributes
-    ----------
-    stall_share, torque_max_nm
-        Largest share of a motor's stall torque, and largest torque on its gearbox.
-    pair_efficiency
-        Efficiency of each printed gear pair.
-    supply, blocked_nm
-        What drives the motor, under the PWM with which the blocked motor gives no more than this torque: that of the
-        firmware. Without a supply it turns at its rated voltage.
-    backlash_circumferential_mm
-        Backlash of a pair, at the pitch circle.
-    stress_mpa
-        Allowable bending stress of the teeth: that of the printed material over its safety factor.
-    tip_min_mm
-        Least width of a tooth's tip: one printed line.
-    cam_gear_root_min_mm
-        Least root radius of the cam gear: its key and a wall.
-    pinion_root_min_mm
-        Least root radius of every other gear: an idler's axle, its fit and a wall.
-    shaft_wall_mm
-        Fit and wall around the motor's shaft in its pinion.
-    cam_efficiency
-        Efficiency of cam, roller and their axles together; judgement.
-    modules_mm
-        Modules tried; judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO 54.
-    face_width_mm
-        Face width of all gears.
-    cam_gear_tip_max_mm
-        Largest tip radius of the cam gear beside what is around the leg's pivot; no limit by default.
-    motor_distance_min_mm
-        Least distance of the motor's axis from the cam's, whatever the motor; judgement: the height of an N20.
-    cam_room_mm
-        Radius around the cam's axis that the motor's socket must leave free.
-    idler_distance_min_mm
-        Least distance of an idler's axle from the cam's: it crosses the plane in which the cam turns.
-    axle_mm
-        Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the gap.
-    cam_speed_max_rad_s
-        Of the unloaded cam; judgement. `synthesis` allows less, so that the next lift does not reach the roller
-        while the leg swings back.
-    seconds_per_gram
-        Seconds of winding accepted per gram saved; judgement.
+    - `stall_share`, `torque_max_nm`: Largest share of a motor's stall torque, and largest torque on its gearbox.
+    - `pair_efficiency`: Efficiency of each printed gear pair.
+    - `supply`, `blocked_nm`: What drives the motor, under the PWM with which the blocked motor gives no more than this
+      torque: that of the firmware. Without a supply it turns at its rated voltage.
+    - `backlash_circumferential_mm`: Backlash of a pair, at the pitch circle.
+    - `stress_mpa`: Allowable bending stress of the teeth: that of the printed material over its safety factor.
+    - `tip_min_mm`: Least width of a tooth's tip: one printed line.
+    - `cam_gear_root_min_mm`: Least root radius of the cam gear: its key and a wall.
+    - `pinion_root_min_mm`: Least root radius of every other gear: an idler's axle, its fit and a wall.
+    - `shaft_wall_mm`: Fit and wall around the motor's shaft in its pinion.
+    - `cam_efficiency`: Efficiency of cam, roller and their axles together; judgement.
+    - `modules_mm`: Modules tried; judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO
+      54.
+    - `face_width_mm`: Face width of all gears.
+    - `cam_gear_tip_max_mm`: Largest tip radius of the cam gear beside what is around the leg's pivot; no limit by
+      default.
+    - `motor_distance_min_mm`: Least distance of the motor's axis from the cam's, whatever the motor; judgement: the
+      height of an N20.
+    - `cam_room_mm`: Radius around the cam's axis that the motor's socket must leave free.
+    - `idler_distance_min_mm`: Least distance of an idler's axle from the cam's: it crosses the plane in which the cam
+      turns.
+    - `axle_mm`: Radius around the cam's axle that an idler's large gear must leave free: that of its spacer, and the
+      gap.
+    - `cam_speed_max_rad_s`: Of the unloaded cam; judgement. `synthesis` allows less, so that the next lift does not
+      reach the roller while the leg swings back.
+    - `seconds_per_gram`: Seconds of winding accepted per gram saved; judgement.
     """
 
     stall_share: float

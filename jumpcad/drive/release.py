@@ -75,23 +75,17 @@ class MovingParts:
 class Release:
     """The release of one robot.
 
-    Attributes
-    ----------
-    off
-        Where the jump starts: the roller has left the corner as printed.
-    energy_ratio, rounded_ratio
-        Energy left in the springs plus the leg's kinetic energy, over the energy stored while the lever was bent: with
-        the corner as printed, and rounded.
-    bending_ratio
-        Energy stored while the lever was bent, over the energy stored with a rigid lever.
-    blow_nm, kick_nm, kick_limit_nm
-        Largest torque in the dog, at the cam; torque peak on the gear motor's output, and its limit.
-    gear_ratio, push_off_s
-        Motor turns per cam turn; time from release until the leg is as far past rest as it may swing.
-    worn_rad
-        How much earlier the leg begins to fall over a worn corner, as an angle of the cam.
-    free_play_rad, roll_over_rad, window_rad
-        Play of the dog; cam angle from the end of the lift until the roller can fall freely; range in which it can.
+    - `off`: Where the jump starts: the roller has left the corner as printed.
+    - `energy_ratio`, `rounded_ratio`: Energy left in the springs plus the leg's kinetic energy, over the energy stored
+      while the lever was bent: with the corner as printed, and rounded.
+    - `bending_ratio`: Energy stored while the lever was bent, over the energy stored with a rigid lever.
+    - `blow_nm`, `kick_nm`, `kick_limit_nm`: Largest torque in the dog, at the cam; torque peak on the gear motor's
+      output, and its limit.
+    - `gear_ratio`, `push_off_s`: Motor turns per cam turn; time from release until the leg is as far past rest as it
+      may swing.
+    - `worn_rad`: How much earlier the leg begins to fall over a worn corner, as an angle of the cam.
+    - `free_play_rad`, `roll_over_rad`, `window_rad`: Play of the dog; cam angle from the end of the lift until the
+      roller can fall freely; range in which it can.
     """
 
     off: RollerOff

@@ -144,12 +144,8 @@ DIAMETER_DIGITS = 6
 def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits) -> TorsionSpring:
     """Find the pair of springs with the smallest outer diameter whose arms touch their pins.
 
-    Parameters
-    ----------
-    on_leg
-        Both springs together.
-    leg_pin_rad
-        Direction of the leg's pin in the rest pose.
+    - `on_leg`: Both springs together.
+    - `leg_pin_rad`: Direction of the leg's pin in the rest pose.
     """
     for length in limits.body_lengths_max_mm:
         smallest = [

@@ -36,28 +36,20 @@ class DriveLimits:
     The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `cam_room_mm`, `idler_distance_min_mm`
     and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
 
-    Attributes
-    ----------
-    motors
-        Names in the catalogue; an empty tuple allows all.
-    dog_mm
-        Diameter of the dog between cam and cam gear.
-    stock_spring, preload_rad
-        The springs from stock, None where they are made to order; how far they are loaded at rest.
-    gap_mm
-        Gap between parts that move past each other.
-    axle_radius_mm
-        Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
-        spring, and of an idler's axle beside the cam.
-    fall_s
-        Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is that of
-        robots of 0.1 kg with strong springs.
-    face_widths_mm
-        Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
-    more_gap_mm
-        How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
-        room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
-        left out. Judgement: a body has no room for more.
+    - `motors`: Names in the catalogue; an empty tuple allows all.
+    - `dog_mm`: Diameter of the dog between cam and cam gear.
+    - `stock_spring`, `preload_rad`: The springs from stock, None where they are made to order; how far they are loaded
+      at rest.
+    - `gap_mm`: Gap between parts that move past each other.
+    - `axle_radius_mm`: Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
+      spring, and of an idler's axle beside the cam.
+    - `fall_s`: Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is
+      that of robots of 0.1 kg with strong springs.
+    - `face_widths_mm`: Face widths of gears, in the order tried: the next one where no gears are strong enough and also
+      fit.
+    - `more_gap_mm`: How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther
+      axis makes room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one
+      pair are left out. Judgement: a body has no room for more.
     """
 
     spring: SpringLimits

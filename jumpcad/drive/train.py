@@ -55,21 +55,15 @@ class NoTrainError(CannotBuildError):
 class GearTrain:
     """Motor and gear pairs, in order from the motor to the cam.
 
-    Attributes
-    ----------
-    motor, driven
-        As it is sold, and as it behaves at the battery's nominal voltage under load.
-    ratio, efficiency
-        Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
-    wheel_torques_nm
-        Largest torque on the wheel of each pair.
-    cam_speed_rad_s
-        Speed of the unloaded cam with a full battery.
-    motor_torque_nm
-        Largest torque on the motor's output.
-    winding_s, mean_current_a, peak_current_a, motor_j, boards_j
-        For one turn of the cam, which is one jump, at the battery's nominal voltage under load: time, currents of the
-        motor, and energy of motor and of boards. Waiting before the jump is not counted.
+    - `motor`, `driven`: As it is sold, and as it behaves at the battery's nominal voltage under load.
+    - `ratio`, `efficiency`: Motor turns per cam turn; share of the motor's work that reaches the springs while they are
+      loaded.
+    - `wheel_torques_nm`: Largest torque on the wheel of each pair.
+    - `cam_speed_rad_s`: Speed of the unloaded cam with a full battery.
+    - `motor_torque_nm`: Largest torque on the motor's output.
+    - `winding_s`, `mean_current_a`, `peak_current_a`, `motor_j`, `boards_j`: For one turn of the cam, which is one
+      jump, at the battery's nominal voltage under load: time, currents of the motor, and energy of motor and of boards.
+      Waiting before the jump is not counted.
     """
 
     motor: Motor

@@ -66,17 +66,12 @@ def chosen_of(catalogue: Catalogue, names: BoughtParts) -> Chosen:
 class Supply:
     """A battery with a driver.
 
-    Attributes
-    ----------
-    empty_v, nominal_v, full_v
-        Of the battery without load.
-    ohm
-        Of battery and driver in series with the motor; the battery's is counted as if PWM did not lower its current.
-    boards_w
-        Power of controller, driver and regulator at the nominal voltage, whether the motor turns or not. The 1 to 2 mA
-        of the sensor's pull-up are not counted: they are within the scatter of the boards' currents.
-    usable_j
-        Energy of a full battery.
+    - `empty_v`, `nominal_v`, `full_v`: Of the battery without load.
+    - `ohm`: Of battery and driver in series with the motor; the battery's is counted as if PWM did not lower its
+      current.
+    - `boards_w`: Power of controller, driver and regulator at the nominal voltage, whether the motor turns or not. The
+      1 to 2 mA of the sensor's pull-up are not counted: they are within the scatter of the boards' currents.
+    - `usable_j`: Energy of a full battery.
     """
 
     empty_v: float

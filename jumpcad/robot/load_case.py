@@ -51,12 +51,8 @@ CAM_TURNS, IDLER_TURNS = 1.0, -1.0
 def axle_beams(layout: Layout, arms_n: tuple[Array, Array], cam_n: Array, front_n: Array) -> dict[str, AxleBeam]:
     """Return the axles and the springs' pin as beams on both plates, by their names.
 
-    Parameters
-    ----------
-    arms_n
-        Forces (2,) of both springs' arms on the leg and on the springs' pin.
-    cam_n, front_n
-        Forces (2,) of the cam on the lever, and of the front link on its axle.
+    - `arms_n`: Forces (2,) of both springs' arms on the leg and on the springs' pin.
+    - `cam_n`, `front_n`: Forces (2,) of the cam on the lever, and of the front link on its axle.
     """
     lateral, (on_leg, on_pin) = layout.lateral, arms_n
     plates = lateral.plates_mm

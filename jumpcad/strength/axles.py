@@ -85,12 +85,8 @@ def pin_bar(workshop: Workshop) -> RoundBar:
 class AxleBeam:
     """A straight beam on two supports under forces across it (statics; Roark, ch. 8).
 
-    Attributes
-    ----------
-    supports_mm
-        Places of the left and of the right plate's middle, y to the left.
-    places_mm, forces_n
-        Places (n,) of the forces between the plates, and forces (n, 2), x-z in the body's frame.
+    - `supports_mm`: Places of the left and of the right plate's middle, y to the left.
+    - `places_mm`, `forces_n`: Places (n,) of the forces between the plates, and forces (n, 2), x-z in the body's frame.
     """
 
     supports_mm: tuple[float, float]
@@ -139,14 +135,9 @@ def mesh_force_n(torque_nmm: float, pair: GearPair, wheel_mm: Array, pinion_mm: 
     T over the wheel's base radius along the line of action: the wheel is pushed in its sense of rotation, and away from
     the pinion (Shigley 13-14).
 
-    Parameters
-    ----------
-    torque_nmm, pair
-        Torque on the wheel, and the gears.
-    wheel_mm, pinion_mm
-        Both axes (2,), x-z.
-    sense
-        1 for a wheel that turns positively about +y, -1 for the other way.
+    - `torque_nmm`, `pair`: Torque on the wheel, and the gears.
+    - `wheel_mm`, `pinion_mm`: Both axes (2,), x-z.
+    - `sense`: 1 for a wheel that turns positively about +y, -1 for the other way.
     """
     away = (wheel_mm - pinion_mm) / np.linalg.norm(wheel_mm - pinion_mm)
     along = sense * np.array([-away[1], away[0]])

@@ -37,20 +37,12 @@ class MovingMass:
 class PushOffForces:
     """Forces at n leg angles from release to rest; zero from take-off on. Vectors (n, 2) are x-z on a flat foot.
 
-    Attributes
-    ----------
-    leg_rad
-        Leg angles (n,), from loaded springs to 0.
-    ground_n
-        Force of the ground on the foot (n, 2).
-    ankle_n
-        Force of the foot on the main leg (n, 2).
-    front_eye_n
-        Force of the foot on the front link (n, 2).
-    leg_axial_n, front_n
-        Compression (n,) of the main leg and of the front link; negative is tension.
-    residual_n
-        Imbalance of forces and torques on the body (n,): the error of the finite differences.
+    - `leg_rad`: Leg angles (n,), from loaded springs to 0.
+    - `ground_n`: Force of the ground on the foot (n, 2).
+    - `ankle_n`: Force of the foot on the main leg (n, 2).
+    - `front_eye_n`: Force of the foot on the front link (n, 2).
+    - `leg_axial_n`, `front_n`: Compression (n,) of the main leg and of the front link; negative is tension.
+    - `residual_n`: Imbalance of forces and torques on the body (n,): the error of the finite differences.
     """
 
     leg_rad: Array

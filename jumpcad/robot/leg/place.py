@@ -55,13 +55,9 @@ def pin_hole(
 ) -> PinHole:  # fmt: skip
     """Return the hole for the pin at a radius from the hub.
 
-    Parameters
-    ----------
-    around_leg
-        What stands beside the leg or sweeps past it, with a gap. Lever and front link move with the leg, beside its
-        pin, and are left out.
-    diameter_mm, axle_mm
-        Of the hole, and of the axles whose bores the plate has.
+    - `around_leg`: What stands beside the leg or sweeps past it, with a gap. Lever and front link move with the leg,
+      beside its pin, and are left out.
+    - `diameter_mm`, `axle_mm`: Of the hole, and of the axles whose bores the plate has.
     """
     hub, plate = linkage.back_pivot_mm, lateral.left_plate
     rest, at_stop = (

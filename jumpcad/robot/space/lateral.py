@@ -66,24 +66,15 @@ def lateral_stack(
 ) -> Lateral:
     """Stack everything across the robot.
 
-    Parameters
-    ----------
-    leg_mm, lug_mm
-        Thickness of legs and of the foot's lugs beside them.
-    roller_width_mm, spring_length_mm
-        Width of the roller bearing, and length of one spring's loaded coil.
-    gear_widths_mm
-        Face widths of the gear planes, the cam gear's first, the motor pinion's last.
-    motor
-        The gear motor, across the robot.
-    plate_mm
-        Thickness of the body plates.
-    tray_width_mm
-        Least width that the electronics need between the plates.
-    roller_screw_mm
-        Length of the roller's screw below its head, which lies on the roller; its end moves past the right plate.
-    right_mm
-        By how much the right plate stands further out than it must.
+    - `leg_mm`, `lug_mm`: Thickness of legs and of the foot's lugs beside them.
+    - `roller_width_mm`, `spring_length_mm`: Width of the roller bearing, and length of one spring's loaded coil.
+    - `gear_widths_mm`: Face widths of the gear planes, the cam gear's first, the motor pinion's last.
+    - `motor`: The gear motor, across the robot.
+    - `plate_mm`: Thickness of the body plates.
+    - `tray_width_mm`: Least width that the electronics need between the plates.
+    - `roller_screw_mm`: Length of the roller's screw below its head, which lies on the roller; its end moves past the
+      right plate.
+    - `right_mm`: By how much the right plate stands further out than it must.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)

@@ -72,16 +72,10 @@ def clearance(
 
     What is farther away than `within_mm` may be left out: the distance is then larger, or infinite.
 
-    Parameters
-    ----------
-    obstacles
-        What the boxes must not touch.
-    centres_mm, angles_rad
-        Box centres (k, 2) and their turns in x-z (k,) or one for all.
-    half_mm
-        Half sizes (2,) of all boxes; (0, 0) measures from points.
-    y_mm
-        Interval of y that the boxes occupy.
+    - `obstacles`: What the boxes must not touch.
+    - `centres_mm`, `angles_rad`: Box centres (k, 2) and their turns in x-z (k,) or one for all.
+    - `half_mm`: Half sizes (2,) of all boxes; (0, 0) measures from points.
+    - `y_mm`: Interval of y that the boxes occupy.
     """
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
     cloud = Cloud.of(obstacles, y_mm).near(centres_mm, half_mm, within_mm)

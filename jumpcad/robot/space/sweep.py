@@ -36,18 +36,12 @@ def link_obstacles(
 ) -> list[Obstacle]:
     """Return the room that main leg, lever, front link and foot sweep.
 
-    Parameters
-    ----------
-    linkage, sections
-        The mechanism and its dimensions.
-    lever_mm, lever_start_rad
-        Length of the lever and its direction at rest, counter-clockwise from the body's x axis.
-    lever_y
-        Interval of y that the lever occupies with its roller, screw and nut.
-    gap_mm
-        Added all around.
-    reach_rad
-        How far past rest the links go.
+    - `linkage`, `sections`: The mechanism and its dimensions.
+    - `lever_mm`, `lever_start_rad`: Length of the lever and its direction at rest, counter-clockwise from the body's x
+      axis.
+    - `lever_y`: Interval of y that the lever occupies with its roller, screw and nut.
+    - `gap_mm`: Added all around.
+    - `reach_rad`: How far past rest the links go.
     """
     travel = np.linspace(linkage.travel_rad[0], reach_rad, POSITIONS)
     pose = linkage.pose(travel)

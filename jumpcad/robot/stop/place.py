@@ -44,22 +44,13 @@ NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 class StopPlace:
     """Where the stop is, in the body frame's x-z plane (mm).
 
-    Attributes
-    ----------
-    angle_rad
-        Of the leg past rest when its heel touches the pad.
-    direction_rad
-        Direction of the leg then, below the x axis: the pad's face is parallel to it.
-    radius_mm, heel_mm
-        From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
-    face_mm
-        Middle (2,) of the pad's free face.
-    depth_mm
-        Of the bar, in the direction of the impact.
-    pad
-        The pad that is glued on.
-    room_mm
-        How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
+    - `angle_rad`: Of the leg past rest when its heel touches the pad.
+    - `direction_rad`: Direction of the leg then, below the x axis: the pad's face is parallel to it.
+    - `radius_mm`, `heel_mm`: From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
+    - `face_mm`: Middle (2,) of the pad's free face.
+    - `depth_mm`: Of the bar, in the direction of the impact.
+    - `pad`: The pad that is glued on.
+    - `room_mm`: How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 
     angle_rad: float
