@@ -52,14 +52,10 @@ def drive_limits(
     `plate_pins_rad` are the directions of the plates' pin that the springs may have, the preferred one first.
     """
     return DriveLimits(
-        spring=_spring_limits(workshop, sections, holes, plate_pins_rad),
-        cam=_cam_limits(workshop, roller, sections),
-        train=_train_limits(workshop, sections),
-        motors=workshop.bought.motors,
-        dog_mm=sections.dog_mm,
-        stock_spring=workshop.stock_spring,
-        preload_rad=math.radians(workshop.spring.preload_deg),
-    )
+        spring=_spring_limits(workshop, sections, holes, plate_pins_rad), cam=_cam_limits(workshop, roller, sections),
+        train=_train_limits(workshop, sections), motors=workshop.bought.motors, dog_mm=sections.dog_mm,
+        stock_spring=workshop.stock_spring, preload_rad=math.radians(workshop.spring.preload_deg),
+    )  # fmt: skip
 
 
 def _spring_limits(

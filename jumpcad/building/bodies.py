@@ -143,13 +143,9 @@ LEVER_SHARE = 33.0 / 140.0
 
 
 def release_of(
-    layout: Layout,
-    workshop: Workshop,
-    parts: tuple[Part, ...],
-    hardware: tuple[BoughtPart, ...],
-    bodies: Mapping[str, Body],
-    spring: Spring,
-) -> Release:
+    layout: Layout, workshop: Workshop, parts: tuple[Part, ...], hardware: tuple[BoughtPart, ...],
+    bodies: Mapping[str, Body], spring: Spring,
+) -> Release:  # fmt: skip
     """Return the release of a robot with all its masses."""
     by_name = {part.name: part for part in parts}
     lever, length = _lever(layout, workshop), layout.drive.cam.lever_length_mm

@@ -105,13 +105,9 @@ def damping_share(rebound: float) -> float:
 
 
 def largest_torques_nm(
-    masses_kg_m2: tuple[float, float, float],
-    speed_rad_s: float,
-    motor_rad_s: float,
-    backlash_rad: float,
-    stiffness_nm_per_rad: float,
-    rebound: float,
-) -> tuple[float, float]:
+    masses_kg_m2: tuple[float, float, float], speed_rad_s: float, motor_rad_s: float, backlash_rad: float,
+    stiffness_nm_per_rad: float, rebound: float,
+) -> tuple[float, float]:  # fmt: skip
     """Return the largest torque between cam and gear, and between gear and rotor (N·m, at the cam).
 
     - `masses_kg_m2`: Moments of inertia of cam, gear and rotor.

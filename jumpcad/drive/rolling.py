@@ -96,13 +96,9 @@ def roll(corner: Corner, parts: ReleaseParts, wound_rad: float) -> Rolled:
     release.run()
     spring, inertia = parts.spring, float(parts.leg.at(np.array(release.wind))[0])
     return Rolled(
-        release.wind,
-        release.rate,
-        spring.stored_j(-release.wind) + 0.5 * inertia * release.rate**2,
-        spring.stored_j(-parts.held_rad(wound_rad)),
-        release.blow_nm,
-        release.kick_nm,
-    )
+        release.wind, release.rate, spring.stored_j(-release.wind) + 0.5 * inertia * release.rate**2,
+        spring.stored_j(-parts.held_rad(wound_rad)), release.blow_nm, release.kick_nm,
+    )  # fmt: skip
 
 
 class _Release:

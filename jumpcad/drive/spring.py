@@ -149,15 +149,9 @@ class TorsionSpring:
 
 
 def torsion_spring(
-    arms: Arms,
-    turns: float,
-    on_leg: Spring,
-    tensile_mpa: float,
-    wire: Wire,
-    limits: SpringLimits,
-    pins_rad: tuple[float, float],
-    stock: str = "",
-) -> TorsionSpring:
+    arms: Arms, turns: float, on_leg: Spring, tensile_mpa: float, wire: Wire, limits: SpringLimits,
+    pins_rad: tuple[float, float], stock: str = "",
+) -> TorsionSpring:  # fmt: skip
     """Return one spring with its loaded dimensions and stress; `pins_rad` are the plate's and the leg's."""
     d, wound = arms.wire_mm, on_leg.wind_rad + on_leg.preload_rad
     loaded_turns = turns + wound / FULL_TURN_RAD

@@ -133,13 +133,9 @@ def supply_of(chosen: Chosen) -> Supply:
     share = 1.0 if regulator is None else regulator.efficiency
     boards_w = chosen.controller.quiescent_a * behind_v / share + boards_beside_a(chosen) * battery.voltage_v
     return Supply(
-        empty_v=empty,
-        nominal_v=battery.voltage_v,
-        full_v=full,
-        ohm=battery.ohm + chosen.driver.resistance_ohm,
-        boards_w=boards_w,
-        usable_j=3.6 * battery.capacity_mah * battery.voltage_v,
-    )
+        empty_v=empty, nominal_v=battery.voltage_v, full_v=full, ohm=battery.ohm + chosen.driver.resistance_ohm,
+        boards_w=boards_w, usable_j=3.6 * battery.capacity_mah * battery.voltage_v,
+    )  # fmt: skip
 
 
 Range = tuple[float, float]

@@ -73,15 +73,9 @@ class BoughtPart(ByValue):
 
 
 def bought(
-    name: str,
-    article: str,
-    body: str,
-    mass_g: float,
-    slabs: Iterable[tuple[float, float, Region]],
-    at_mm: Sequence[float] = (0.0, 0.0, 0.0),
-    turn_rad: float = 0.0,
-    units: int = 1,
-) -> BoughtPart:
+    name: str, article: str, body: str, mass_g: float, slabs: Iterable[tuple[float, float, Region]],
+    at_mm: Sequence[float] = (0.0, 0.0, 0.0), turn_rad: float = 0.0, units: int = 1,
+) -> BoughtPart:  # fmt: skip
     """Return a bought part drawn as slabs (y0, y1, region in x-z), turned counter-clockwise in x-z and moved (mm).
 
     Copies drawn about their own origin are equal: one shape for all of them, measured once.

@@ -109,14 +109,10 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     ankle = axial[:, None] * along + shear[:, None] * across
     stands = np.cumprod(ground[:, 1] > 0.0).astype(float)
     return PushOffForces(
-        leg_rad=leg,
-        ground_n=ground * stands[:, None],
-        ankle_n=ankle * stands[:, None],
-        front_eye_n=(front_force * stands)[:, None] * front_along,
-        leg_axial_n=axial * stands,
-        front_n=front_force * stands,
-        residual_n=residual * stands,
-    )
+        leg_rad=leg, ground_n=ground * stands[:, None], ankle_n=ankle * stands[:, None],
+        front_eye_n=(front_force * stands)[:, None] * front_along, leg_axial_n=axial * stands,
+        front_n=front_force * stands, residual_n=residual * stands,
+    )  # fmt: skip
 
 
 def toe_load_n(forces: PushOffForces, design: Design, foot_depth_mm: float) -> Array:

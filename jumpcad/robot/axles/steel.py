@@ -114,13 +114,8 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
-    yield stress_finding(
-        "roller_screw_strength",
-        "the roller's screw, springs loaded",
-        stress,
-        allowed,
-        choose("a narrower", "bought.roller"),
-    )
+    ways = choose("a narrower", "bought.roller")
+    yield stress_finding("roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, ways)
 
 
 def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> Ways:

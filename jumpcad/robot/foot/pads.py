@@ -132,13 +132,9 @@ def _toe_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
 
 
 def _pad(
-    name: str,
-    pad: Pad,
-    body: str,
-    slabs: list[tuple[float, float, Region]],
-    size_mm: tuple[float, float],
+    name: str, pad: Pad, body: str, slabs: list[tuple[float, float, Region]], size_mm: tuple[float, float],
     at_mm: tuple[float, float, float],
-) -> BoughtPart:
+) -> BoughtPart:  # fmt: skip
     """Return a pad with the size to cut, its mass from its volume."""
     volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
     size = f"{size_mm[0]:.1f} x {size_mm[1]:.1f}"

@@ -103,14 +103,9 @@ def _spring_boss(layout: Layout, holes: HoleSizes, y0: float, socket: Region) ->
 
 
 def _drawing(
-    name: str,
-    holes: HoleSizes,
-    slabs: list[tuple[float, float, Region]],
-    engraved_y: tuple[float, float],
-    label: str,
-    face: Face,
-    covered: Region | None = None,
-) -> Drawing:
+    name: str, holes: HoleSizes, slabs: list[tuple[float, float, Region]], engraved_y: tuple[float, float], label: str,
+    face: Face, covered: Region | None = None,
+) -> Drawing:  # fmt: skip
     """Lay a plate outside down and engrave its label where its face, the first slab, has room and nothing covers it."""
     stack, pose = lying_stack(slabs, face)
     if label:

@@ -186,18 +186,11 @@ def sensor_place(
         scatter = (slope + needs.along_mm) / radius
         reach = lateral.left_plate[1] - lateral.gears[0][1]
         return SensorPlace(
-            needs=needs,
-            place_mm=places[best],
-            turn_rad=direction + math.pi / 2.0,
-            direction_rad=direction,
-            radius_mm=radius,
-            half_width_mm=width / 2.0,
-            depth_mm=depth,
-            base_mm=middle_mm(travel) - reach - _slack_mm(),
-            scatter_rad=scatter,
-            ready_rad=scatter + needs.stop_rad + needs.reserve_rad,
-            open_rad=scatter + needs.reserve_rad,
-        )
+            needs=needs, place_mm=places[best], turn_rad=direction + math.pi / 2.0, direction_rad=direction,
+            radius_mm=radius, half_width_mm=width / 2.0, depth_mm=depth,
+            base_mm=middle_mm(travel) - reach - _slack_mm(), scatter_rad=scatter,
+            ready_rad=scatter + needs.stop_rad + needs.reserve_rad, open_rad=scatter + needs.reserve_rad,
+        )  # fmt: skip
     assert refusal is not None
     raise refusal
 

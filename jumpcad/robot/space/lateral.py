@@ -53,17 +53,9 @@ class Lateral:
 
 
 def lateral_stack(
-    leg_mm: float,
-    lug_mm: float,
-    roller_width_mm: float,
-    spring_length_mm: float,
-    gear_widths_mm: tuple[float, ...],
-    motor: Motor,
-    plate_mm: float,
-    tray_width_mm: float,
-    roller_screw_mm: float,
-    right_mm: float = 0.0,
-) -> Lateral:
+    leg_mm: float, lug_mm: float, roller_width_mm: float, spring_length_mm: float, gear_widths_mm: tuple[float, ...],
+    motor: Motor, plate_mm: float, tray_width_mm: float, roller_screw_mm: float, right_mm: float = 0.0,
+) -> Lateral:  # fmt: skip
     """Stack everything across the robot.
 
     - `leg_mm`, `lug_mm`: Thickness of legs and of the foot's lugs beside them.
@@ -94,16 +86,7 @@ def lateral_stack(
     right = min(body[0] - TERMINALS_MM, beside_leg, left - tray_width_mm) - right_mm
     lug = (half + GAP_MM, half + GAP_MM + lug_mm)
     return Lateral(
-        leg=(-half, half),
-        lug_left=lug,
-        lug_right=(-lug[1], -lug[0]),
-        cam=cam,
-        roller_screw=screw,
-        gears=tuple(gears),
-        motor=body,
-        motor_cap=cap,
-        left_plate=(left, left + plate_mm),
-        right_plate=(right - plate_mm, right),
-        spring_left=spring_left,
-        spring_right=spring_right,
-    )
+        leg=(-half, half), lug_left=lug, lug_right=(-lug[1], -lug[0]), cam=cam, roller_screw=screw, gears=tuple(gears),
+        motor=body, motor_cap=cap, left_plate=(left, left + plate_mm), right_plate=(right - plate_mm, right),
+        spring_left=spring_left, spring_right=spring_right,
+    )  # fmt: skip

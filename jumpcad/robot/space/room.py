@@ -61,13 +61,9 @@ def box_obstacle(
 
 
 def clearance(
-    obstacles: Iterable[Obstacle],
-    centres_mm: Array,
-    half_mm: npt.ArrayLike,
-    angles_rad: npt.ArrayLike,
-    y_mm: tuple[float, float],
-    within_mm: float = 0.0,
-) -> Array:
+    obstacles: Iterable[Obstacle], centres_mm: Array, half_mm: npt.ArrayLike, angles_rad: npt.ArrayLike,
+    y_mm: tuple[float, float], within_mm: float = 0.0,
+) -> Array:  # fmt: skip
     """Return the smallest distance (k,) from k boxes to any obstacle that shares an interval of y; negative inside.
 
     What is farther away than `within_mm` may be left out: the distance is then larger, or infinite.
@@ -170,15 +166,9 @@ def grid_candidates(x_mm: tuple[float, float], z_mm: tuple[float, float], step_m
 
 
 def best_place(
-    what: str,
-    obstacles: Sequence[Obstacle],
-    centres_mm: Array,
-    half_mm: tuple[float, float],
-    angles_rad: Array | float,
-    y_mm: tuple[float, float],
-    cost: Callable[[Array], Array],
-    ways: Remedy,
-) -> int:
+    what: str, obstacles: Sequence[Obstacle], centres_mm: Array, half_mm: tuple[float, float],
+    angles_rad: Array | float, y_mm: tuple[float, float], cost: Callable[[Array], Array], ways: Remedy,
+) -> int:  # fmt: skip
     """Return the index of the cheapest candidate that collides with no obstacle."""
     order = np.argsort(cost(centres_mm), kind="stable")
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))

@@ -26,14 +26,9 @@ ALONG = 41
 
 
 def link_obstacles(
-    linkage: Linkage,
-    sections: Sections,
-    lever_mm: float,
-    lever_start_rad: float,
-    lever_y: tuple[float, float],
-    gap_mm: float,
-    reach_rad: float,
-) -> list[Obstacle]:
+    linkage: Linkage, sections: Sections, lever_mm: float, lever_start_rad: float, lever_y: tuple[float, float],
+    gap_mm: float, reach_rad: float,
+) -> list[Obstacle]:  # fmt: skip
     """Return the room that main leg, lever, front link and foot sweep.
 
     - `linkage`, `sections`: The mechanism and its dimensions.

@@ -143,15 +143,9 @@ def _missing(linkage: Linkage, sections: Sections, reach_rad: float, gap_mm: flo
 
 
 def stop_place(
-    obstacles: list[Obstacle],
-    linkage: Linkage,
-    sections: Sections,
-    angle_rad: float,
-    pad: Pad,
-    inside: Interval,
-    plate: Interval,
-    reserve_mm: float = 0.0,
-) -> StopPlace:
+    obstacles: list[Obstacle], linkage: Linkage, sections: Sections, angle_rad: float, pad: Pad, inside: Interval,
+    plate: Interval, reserve_mm: float = 0.0,
+) -> StopPlace:  # fmt: skip
     """Return the place of the stop behind the leg, across both plates: the free one nearest to the wanted radius.
 
     It has `reserve_mm` more than the usual clearances around it.
@@ -181,15 +175,9 @@ def stop_place(
         )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
     return StopPlace(
-        angle_rad,
-        below,
-        float(radii[best]),
-        heel,
-        np.round(faces[best], 6),
-        sections.stop_mm,
-        pad,
+        angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad,
         min(float(room.max()), KNOWN_MM),
-    )
+    )  # fmt: skip
 
 
 def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:
