@@ -10,7 +10,7 @@ import numpy as np
 
 from jumpcad.building import build
 from jumpcad.checks import quick_findings
-from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
+from jumpcad.collision.hulls import least_share_on_feet, share_on_feet
 from jumpcad.design import Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names

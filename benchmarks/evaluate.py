@@ -22,7 +22,7 @@ from evaluator import cpu_ms
 from manifold3d import CrossSection
 
 from jumpcad import evaluation, published
-from jumpcad.building import assembly, bearing_and_drive, weighing
+from jumpcad.building import assembly, bearing_and_drive, bodies
 from jumpcad.building import growth as building
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
@@ -41,7 +41,7 @@ STAGES: dict[str, tuple[ModuleType, str]] = {
     "drive": (bearing_and_drive, "synthesise"),
     "plan": (assembly, "make_layout"),
     "drawings": (assembly, "drawings"),
-    "printed masses": (weighing, "mass_properties"),
+    "printed masses": (bodies, "mass_properties"),
     "checks": (building, "constraint_findings"),
     "simulation": (evaluation, "simulate"),
 }

@@ -25,7 +25,7 @@ from jumpcad import published
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.facts import arms_off_deg, early_torque_share, least_energy_share, torque_shares
-from jumpcad.collision.stable_poses import share_on_feet
+from jumpcad.collision.hulls import share_on_feet
 from jumpcad.design import SEARCH_BOUNDS, load_design
 from jumpcad.dimensions import AXLE_END_PLAY_MM
 from jumpcad.files import template_names

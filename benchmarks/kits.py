@@ -14,8 +14,8 @@ from jumpcad.building import build
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.design import load_design
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.supply import chosen_parts
 from jumpcad.files import template_names
 from jumpcad.findings import errors
 from jumpcad.robot.electronics.limits import links

@@ -15,7 +15,7 @@ import numpy as np
 
 from jumpcad import published
 from jumpcad.building import build
-from jumpcad.building.refusal import statics_refusal
+from jumpcad.building.growth import statics_refusal
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import PRINTED_BOUNDS, Design, load_design
 from jumpcad.errors import JumpcadError

@@ -9,7 +9,7 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.building import built_and_checked
 from jumpcad.building.bom import bill_of_materials
-from jumpcad.building.refusal import statics_refusal
+from jumpcad.building.growth import statics_refusal
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, errors
@@ -102,7 +102,7 @@ class EvaluationResult(ByValue):
     @cached_property
     def rights_itself(self) -> float:
         """Share of attitudes from which the wound robot rolls onto its feet, by its stable poses."""
-        from jumpcad.collision.stable_poses import share_on_feet
+        from jumpcad.collision.hulls import share_on_feet
 
         return share_on_feet(self.robot)
 

@@ -4,19 +4,16 @@ import math
 from dataclasses import replace
 
 from jumpcad.building.bearing_and_drive import solve_bearing_and_drive
-from jumpcad.building.bodies import bodies_of, friction_of, outlines_m
-from jumpcad.building.releasing import release_of
-from jumpcad.building.weighing import require_parts, weighed_part
+from jumpcad.building.bodies import bodies_of, friction_of, outlines_m, release_of, require_parts, weighed_part
 from jumpcad.design import Design
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import for_bought_springs, springs_on_leg
-from jumpcad.electronics.chosen import Chosen, chosen_parts
+from jumpcad.drive.spring_choice import for_bought_springs, springs_on_leg
+from jumpcad.electronics.supply import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.flight import Blow, leg_blow
 from jumpcad.mechanism.model import five_bar
 from jumpcad.parts.part import Drawing, Part
-from jumpcad.robot.axles.axles import require_retention
-from jumpcad.robot.axles.spacers import require_axle
+from jumpcad.robot.axles.thing import require_axle, require_retention
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.foot.drawing import in_one_piece
@@ -63,24 +60,11 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
     joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
-        name=name,
-        design=design,
-        bodies=bodies,
-        joints=joints,
-        loops=(loop,),
-        springs=(spring,),
-        foot_depth_m=layout.sections.ground_mm / 1000.0,
-        friction=friction_of(layout, workshop),
-        outline_m=outlines_m(parts, hardware),
-        parts=parts,
-        hardware=hardware,
-        workshop=workshop,
-        layout=layout,
-        release=release,
-        roller_off=release.off,
-        stop_blow=held,
-        stop=held.stop,
-    )
+        name=name, design=design, bodies=bodies, joints=joints, loops=(loop,), springs=(spring,),
+        foot_depth_m=layout.sections.ground_mm / 1000.0, friction=friction_of(layout, workshop),
+        outline_m=outlines_m(parts, hardware), parts=parts, hardware=hardware, workshop=workshop, layout=layout,
+        release=release, roller_off=release.off, stop_blow=held, stop=held.stop,
+    )  # fmt: skip
 
 
 def _same_but_for_lever(one: Layout, other: Layout) -> bool:
@@ -136,31 +120,19 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
     carried = chosen_parts(workshop)
     parts = carried.components
     electronics = Electronics(
-        carried.battery,
-        carried.controller,
-        carried.driver,
-        carried.regulator,
-        parts.get("plug"),
-        parts.get("capacitor"),
-        settled.holes.fits.wall_min_mm,
-        settled.holes.fits.sliding_mm,
+        carried.battery, carried.controller, carried.driver, carried.regulator, parts.get("plug"),
+        parts.get("capacitor"), settled.holes.fits.wall_min_mm, settled.holes.fits.sliding_mm,
         side if (side := workshop.seats.battery) in ("left", "right") else None,
         "left" if workshop.seats.boards == "left" else "right",
-    )
+    )  # fmt: skip
     return make_layout(
-        settled.linkage,
-        settled.sections,
-        settled.drive,
-        electronics,
-        workshop,
-        hub_bearing=settled.holes.bearing,
+        settled.linkage, settled.sections, settled.drive, electronics, workshop, hub_bearing=settled.holes.bearing,
         roller=settled.roller,
         toes_apart=not in_one_piece(design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, workshop.bought)),
-        sensor=_sensor_needs(workshop, carried, settled.drive),
-        switch=parts.get("switch"),
-    )
+        sensor=_sensor_needs(workshop, carried, settled.drive), switch=parts.get("switch"),
+    )  # fmt: skip
 
 
 def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNeeds | None:

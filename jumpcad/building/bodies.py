@@ -1,21 +1,27 @@
-"""The rigid bodies of a robot: what they carry, where they touch the ground, and the friction there and at the pins."""
+"""From drawings and bought parts to weighed parts, rigid bodies that touch the ground, and the release of the cam."""
 
 import itertools
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from jumpcad.collision.hulls import CAGE
-from jumpcad.dimensions import PAD_WALL_MM
+from jumpcad.dimensions import LEVER_EYE_RADIUS_MM, PAD_WALL_MM
+from jumpcad.drive.release import MovingParts, Release, release
+from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean
 from jumpcad.mechanism.linkage import Complex, toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Surface
-from jumpcad.mechanism.planar import points
-from jumpcad.parts.part import Part
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Friction, Spring, Surface
+from jumpcad.mechanism.planar import points, reflected_mass
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.robot.layout import Layout
-from jumpcad.transforms import in_metres
+from jumpcad.strength.stress import STATIONS, Beam, Shell, tip_stiffness_n_per_mm
+from jumpcad.transforms import Array, in_metres
 from jumpcad.workshop import Workshop
 
 CORNERS = np.array(list(itertools.product((0, 1), repeat=3)))
@@ -89,3 +95,82 @@ def friction_of(layout: Layout, workshop: Workshop) -> Friction:
     hub_m = 0.0 if layout.hub_bearing else radius_m
     pins = (hub_m, radius_m, radius_m, radius_m)
     return Friction(ground.foot_friction, ground.bare_friction, workshop.pins.friction, pins)
+
+
+WEIGHED_OFF = 20.0
+"""By how much a printed part may be heavier or lighter than as drawn; judgement: kilograms are 1000 times off."""
+NOT_IN_EVERY_ROBOT = (
+    "idler",
+    "cam_spacer_left",
+    "idler_spacer_right",
+    "toe_left",
+    "toe_right",
+    "main_leg_end",
+    "sensor_mount",
+)
+"""Parts that only some designs have: a workshop with their weights serves the other designs too."""
+
+
+def weighed_part(drawing: Drawing, workshop: Workshop) -> Part:
+    """Return a drawing with its material and the mass of one copy."""
+    material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
+    model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
+    mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
+    weighed = workshop.mass.weighed_g.get(drawing.name)
+    if weighed is not None:
+        grams = 1000.0 * mass.mass_kg
+        if not grams / WEIGHED_OFF <= weighed <= grams * WEIGHED_OFF:
+            raise JumpcadError(
+                f"mass.weighed_g.{drawing.name} = {weighed:g}: as drawn it weighs about {grams:.2g} g: is it in grams?"
+            )
+        return Part(drawing, material_name, mass.scaled_to(weighed / 1000.0), "weighed")
+    return Part(drawing, material_name, mass, model)
+
+
+def require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:
+    """Reject weights of parts that neither this robot, whose parts have these names, nor any other has."""
+    known = (*names, *NOT_IN_EVERY_ROBOT)
+    for name in weighed:
+        if name not in known:
+            raise JumpcadError(
+                f"mass.weighed_g.{name}: no such part{did_you_mean(name, known)}; the robot has {', '.join(names)}"
+            )
+
+
+LEVER_SHARE = 33.0 / 140.0
+"""Of a cantilever's mass that moves with its end (Rayleigh)."""
+
+
+def release_of(
+    layout: Layout, workshop: Workshop, parts: tuple[Part, ...], hardware: tuple[BoughtPart, ...],
+    bodies: Mapping[str, Body], spring: Spring,
+) -> Release:  # fmt: skip
+    """Return the release of a robot with all its masses."""
+    by_name = {part.name: part for part in parts}
+    lever, length = _lever(layout, workshop), layout.drive.cam.lever_length_mm
+    mass = 1e-6 * float(np.mean(lever.area_mm2)) * length * workshop.material("links").density_g_cm3
+    moving = MovingParts(
+        spring=spring,
+        leg=reflected_mass(bodies, layout.linkage),
+        cam_kg_m2=_about_axle(by_name["cam"], layout.cam_axis_mm),
+        cam_gear_kg_m2=_about_axle(by_name["cam_gear"], layout.cam_axis_mm),
+        pinion_kg_m2=_about_axle(by_name["motor_pinion"], layout.motor_mm),
+        bore_mm=HoleSizes.of(workshop, layout.hub_bearing).running(layout.axle_mm),
+        lever_n_per_m=1000.0 * tip_stiffness_n_per_mm(lever, length, workshop.material("links").modulus_mpa),
+        roller_kg=sum(item.mass.mass_kg for item in hardware if item.name.startswith("roller")) + LEVER_SHARE * mass,
+    )
+    return release(layout.drive, moving, workshop)
+
+
+def _about_axle(part: Part, axis_mm: Array) -> float:
+    """Return a part's moment of inertia about an axle along y (kg·m²)."""
+    mass = part.mass.placed(in_metres(part.placements[0].T_body_part))
+    away = mass.com_m[[0, 2]] - axis_mm / 1000.0
+    return float(mass.inertia_kg_m2[1, 1] + mass.mass_kg * np.sum(away**2))
+
+
+def _lever(layout: Layout, workshop: Workshop) -> Beam:
+    """Return the printed lever from the leg's hub to the roller."""
+    sections = layout.sections
+    heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
+    return Beam(sections.thickness_mm, heights, Shell.of(workshop.process))

@@ -15,11 +15,11 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.files.reading import to_csv
-from jumpcad.parts.mass_line import MassLine
+from jumpcad.parts.part import MassLine
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.robot.springs.wire import CHOOSE, ORDERED
+from jumpcad.robot.springs.thing import CHOOSE, ORDERED
 from jumpcad.workshop import Workshop
 
 ALWAYS = (

@@ -23,7 +23,7 @@ from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
 from jumpcad.bundle.renders import RENDERS, all_pictures, renders
 from jumpcad.bundle.weigh_sheet import weigh_sheet
-from jumpcad.collision.stable_poses import share_on_feet
+from jumpcad.collision.hulls import share_on_feet
 from jumpcad.coupon.contents import coupon_files, coupon_masses, coupon_pieces
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.glb import animated, write_glb

@@ -20,7 +20,7 @@ from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import read_json, read_toml, template_names
 from jumpcad.files.outputs import sha256
 from jumpcad.files.records import Text
-from jumpcad.parts.mass_line import MassLine
+from jumpcad.parts.part import MassLine
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop, load_workshop
 

@@ -7,7 +7,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.reading import to_csv
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.springs.wire import CHOOSE
+from jumpcad.robot.springs.thing import CHOOSE
 from jumpcad.simulation import simulate
 from jumpcad.transforms import in_metres
 

@@ -1,10 +1,8 @@
 """Bought parts: motors, bearings, batteries, boards, springs, pads, fasteners and wire, shipped and the user's own."""
 
 from jumpcad.catalogue.articles import Article, OwnParts
-from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
-from jumpcad.catalogue.bars import LegBar
+from jumpcad.catalogue.bars import CageRod, ClevisPin, Clip, LegBar, Rod
 from jumpcad.catalogue.boards import Board
-from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, ElectricalParts, Kit, Motor, Travel
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue

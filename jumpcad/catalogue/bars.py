@@ -1,4 +1,4 @@
-"""Bars that legs are made of between printed ends: strips and tubes of pultruded carbon (mm, g, MPa)."""
+"""Bars of legs between printed ends, rods that cages are bent of, axles and pins with what keeps them (mm, g, MPa)."""
 
 import itertools
 import math
@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from jumpcad.catalogue.articles import Article, Length, Positive, Source
+from jumpcad.catalogue.articles import Article, Length, Mass, Positive, Source
 from jumpcad.files import Contradiction
 
 STEPS = 16
@@ -100,3 +100,72 @@ class LegBar(Article):
 def round_mm(length_mm: float) -> float:
     """Return a length rounded to a nanometre."""
     return round(length_mm, 6)
+
+
+class Rod(Article):
+    """Rod of any diameter for axles: `description` is what to order, `bore_share` its bore over its outside.
+
+    `grooves` says whether grooves can be turned or filed in it at home.
+    """
+
+    description: Source
+    density_g_cm3: Annotated[float, Field(ge=0.5, le=20)]
+    yield_mpa: Positive
+    bore_share: Annotated[float, Field(ge=0, le=0.95)] = 0.0
+    grooves: bool
+
+
+class Clip(Article):
+    """A retaining ring for a groove at a shaft's end; `load_n` is its load capacity, `end_mm` the shaft beyond it."""
+
+    shaft_mm: Length
+    groove_mm: Length
+    groove_width_mm: Length
+    end_mm: Length
+    outer_mm: Length
+    thickness_mm: Length
+    load_n: Positive
+    mass_g: Mass
+
+    def contradictions(self) -> Iterator[Contradiction]:
+        """Yield a groove that is not smaller than its shaft."""
+        if not self.groove_mm < self.shaft_mm < self.outer_mm:
+            reason = f"must be less than shaft_mm = {self.shaft_mm:g}, and that less than outer_mm = {self.outer_mm:g}"
+            yield ("groove_mm",), self.groove_mm, reason
+
+
+class ClevisPin(Article):
+    """A pin with a head and a cross hole for a split pin, `end_mm` before its end."""
+
+    diameter_mm: Length
+    head_mm: Length
+    head_height_mm: Length
+    end_mm: Length
+    lengths_mm: list[Length]
+    cotter_mm: Length
+    cotter_length_mm: Length
+    yield_mpa: Positive
+    load_n: Positive
+
+
+class CageRod(Article):
+    """A straight round rod, sold by length and bent cold; `description` is what to order.
+
+    It breaks, or stays bent, at `breaking_strain`, of which it bears `sustained_share` for months.
+    """
+
+    description: Source
+    diameter_mm: Annotated[float, Field(ge=0.3, le=5)]
+    density_g_cm3: Annotated[float, Field(ge=0.3, le=20)]
+    modulus_mpa: Annotated[float, Field(ge=100, le=1e6)]
+    breaking_strain: Annotated[float, Field(ge=1e-3, le=0.2)]
+    sustained_share: Annotated[float, Field(ge=0.05, le=1)]
+
+    @property
+    def bending_nmm2(self) -> float:
+        """Bending stiffness E·I."""
+        return self.modulus_mpa * math.pi / 64.0 * self.diameter_mm**4
+
+    def mass_g(self, length_mm: float) -> float:
+        """Return the mass of a length."""
+        return self.density_g_cm3 * math.pi / 4.0 * self.diameter_mm**2 * length_mm / 1000.0

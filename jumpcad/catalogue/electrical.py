@@ -6,17 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from jumpcad.catalogue.articles import (
-    STEEL_G_CM3,
-    Article,
-    Confidence,
-    Length,
-    Mass,
-    Positive,
-    Side,
-    Source,
-    Volts,
-)
+from jumpcad.catalogue.articles import STEEL_G_CM3, Article, Confidence, Length, Mass, Positive, Side, Source, Volts
 from jumpcad.files import Contradiction, TomlTable
 from jumpcad.files.records import Name, OptionalName, Text
 

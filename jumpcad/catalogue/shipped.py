@@ -9,10 +9,8 @@ from typing import Any, Generic, NoReturn, TypeVar
 from pydantic import PositiveFloat
 
 from jumpcad.catalogue.articles import AnyArticle, Article
-from jumpcad.catalogue.axles import ClevisPin, Clip, Rod
-from jumpcad.catalogue.bars import LegBar
+from jumpcad.catalogue.bars import CageRod, ClevisPin, Clip, LegBar, Rod
 from jumpcad.catalogue.boards import Board
-from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, Kit, Motor
 from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.errors import JumpcadError
@@ -158,26 +156,20 @@ def load_catalogue() -> Catalogue:
     )
     defaults = motors.pop("defaults")
     return Catalogue(
-        motors=_articles("motor", Motor, motors, defaults),
-        bearings=_articles("bearing", Bearing, bearings),
+        motors=_articles("motor", Motor, motors, defaults), bearings=_articles("bearing", Bearing, bearings),
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": ""}),
         boards=_articles("board", Board, electronics["boards"] | {"source": ""}),
         components=_articles("component", Component, electronics["components"] | {"source": ""}),
-        kits=_by_name("kit", Kit, kits),
-        springs=_articles("spring", StockSpring, springs),
-        pads=_articles("pad", Pad, pads),
-        screws=_by_name("screw", Screw, fasteners["screws"]),
-        nuts=_by_name("nut", Nut, fasteners["nuts"]),
-        washers=_by_name("washer", Washer, fasteners["washers"]),
-        standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]),
-        rods=_by_name("rod", Rod, axles["rods"]),
+        kits=_by_name("kit", Kit, kits), springs=_articles("spring", StockSpring, springs),
+        pads=_articles("pad", Pad, pads), screws=_by_name("screw", Screw, fasteners["screws"]),
+        nuts=_by_name("nut", Nut, fasteners["nuts"]), washers=_by_name("washer", Washer, fasteners["washers"]),
+        standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]), rods=_by_name("rod", Rod, axles["rods"]),
         clips=_by_name("clip", Clip, axles["clips"]),
         clevis_pins=_by_name("clevis pin", ClevisPin, axles["clevis_pins"]),
         bars=_articles("leg bar", LegBar, bars, bars.pop("defaults")),
-        cage_rods=_articles("cage rod", CageRod, cage_rods),
-        wire=Wire.from_toml(folder / "wire.toml"),
+        cage_rods=_articles("cage rod", CageRod, cage_rods), wire=Wire.from_toml(folder / "wire.toml"),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
-    )
+    )  # fmt: skip
 
 
 def _articles(

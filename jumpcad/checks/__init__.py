@@ -10,8 +10,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from fnmatch import fnmatchcase
 
-from jumpcad.checks import assembly, foot_clearance, interference, printability, righting
-from jumpcad.drive.stock_spring import for_bought_springs
+from jumpcad.checks import assembly, interference, printability, springs_loaded
+from jumpcad.drive.spring_choice import for_bought_springs
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
@@ -44,11 +44,11 @@ CHECKS = (
     Check(feasibility.feasibility_findings, feasibility.BASIS, needs=Mechanism),
     *(check for thing in THINGS for check in thing.checks),
     Check(printability.bed_findings, printability.BASIS),
-    Check(foot_clearance.foot_findings, foot_clearance.BASIS, cheap=False),
+    Check(springs_loaded.foot_findings, springs_loaded.BASIS, cheap=False),
     Check(printability.printability_findings, printability.BASIS, cheap=False),
     Check(interference.interference_findings, interference.BASIS, cheap=False),
     Check(assembly.assembly_findings, assembly.BASIS, cheap=False),
-    Check(righting.righting_findings, righting.BASIS, cheap=False),
+    Check(springs_loaded.righting_findings, springs_loaded.RIGHTING_BASIS, cheap=False),
 )
 """Every check, in the order of its findings."""
 

@@ -191,7 +191,7 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
 def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
     """Return the figures that `build` prints."""
     from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
-    from jumpcad.robot.plates.limits import engraving_findings
+    from jumpcad.robot.plates.thing import engraving_findings
     from jumpcad.simulation.uncertain import uncertainty_of
 
     train, sure = robot.layout.drive.train, uncertainty_of(robot) if printed.verdict == "jump" else None

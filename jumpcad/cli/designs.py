@@ -109,7 +109,7 @@ def cage(
     Sizes are searched by stable poses. The lightest is then dropped 50 times
     and lands 50 times in MuJoCo, and must stand up. A minute or two.
     """
-    from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
+    from jumpcad.collision.hulls import least_share_on_feet, share_on_feet
     from jumpcad.design import load_design
     from jumpcad.files import to_toml
     from jumpcad.files.outputs import require_apart, require_target, write_atomically

@@ -27,7 +27,7 @@ from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.files.rendering import fill, render
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.mass_line import MassLine
+from jumpcad.parts.part import MassLine
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled

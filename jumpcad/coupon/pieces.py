@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from jumpcad.drive.gear_pair import GearPair, gear_pair
-from jumpcad.drive.gears import Gear
+from jumpcad.drive.gears import Gear, GearPair, gear_pair
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Shape, mesh_of, shown_mesh_of
 from jumpcad.solids.outline import Region, disc, engravable, hole, polygon, rectangle, stadium, text, union

@@ -3,12 +3,11 @@
 from jumpcad.drive.cam import Cam, CamGeometry
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.cam_limits import CamLimits
-from jumpcad.drive.gear_pair import GearPair
-from jumpcad.drive.gears import Gear
+from jumpcad.drive.gears import Gear, GearPair
+from jumpcad.drive.motor import TrainLimits
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
 from jumpcad.drive.synthesis import Drive, DriveLimits, synthesise
 from jumpcad.drive.train import GearTrain
-from jumpcad.drive.train_limits import TrainLimits
 
 __all__ = [
     "Cam",

@@ -25,18 +25,11 @@ from jumpcad.transforms import Array, turned_about_y
 class CamGeometry:
     """Where the cam is and how large the lever is; with a law, this fixes every curve of the cam.
 
-    Attributes
-    ----------
-    lever_mm
-        Hub to roller centre.
-    axis_distance_mm, axis_rad
-        The cam's axis from the hub: distance, and direction counter-clockwise from x.
-    lead_rad
-        Direction of the lever at rest, counter-clockwise from that of the cam's axis.
-    roller_radius_mm, clearance_mm
-        Radius of the roller, and the gap that the drop face leaves around it.
-    overshoot_rad
-        How far past rest the drop leaves room for the leg.
+    - `lever_mm`: Hub to roller centre.
+    - `axis_distance_mm`, `axis_rad`: The cam's axis from the hub: distance, and direction counter-clockwise from x.
+    - `lead_rad`: Direction of the lever at rest, counter-clockwise from that of the cam's axis.
+    - `roller_radius_mm`, `clearance_mm`: Radius of the roller, and the gap that the drop face leaves around it.
+    - `overshoot_rad`: How far past rest the drop leaves room for the leg.
     """
 
     law: CamLaw
@@ -152,22 +145,15 @@ class CamGeometry:
 class Cam:
     """A finished cam with its lever; lengths in mm, points from the hub unless the cam's frame is named.
 
-    Attributes
-    ----------
-    geometry
-        Closed-form curves and conversions between frames.
-    profile_mm
-        Outline (n, 2), in the cam's frame at cam angle 0.
-    outer_radius_mm, core_radius_mm
-        Distances of the outline's farthest and nearest point from the cam's axis.
-    max_pressure_angle_rad, min_convex_radius_mm
-        Largest pressure angle of the lift, and smallest convex radius of its pitch curve.
-    peak_contact_n, contact_pressure_mpa
-        Largest force between roller and cam, and largest pressure of their line contact (Hertz).
-    worn_mm
-        Radius to which the corner at the end of the lift wears.
-    findings
-        Signed margins of every limit that was checked.
+    - `geometry`: Closed-form curves and conversions between frames.
+    - `profile_mm`: Outline (n, 2), in the cam's frame at cam angle 0.
+    - `outer_radius_mm`, `core_radius_mm`: Distances of the outline's farthest and nearest point from the cam's axis.
+    - `max_pressure_angle_rad`, `min_convex_radius_mm`: Largest pressure angle of the lift, and smallest convex radius
+      of its pitch curve.
+    - `peak_contact_n`, `contact_pressure_mpa`: Largest force between roller and cam, and largest pressure of their line
+      contact (Hertz).
+    - `worn_mm`: Radius to which the corner at the end of the lift wears.
+    - `findings`: Signed margins of every limit that was checked.
     """
 
     geometry: CamGeometry

@@ -15,16 +15,10 @@ class CamLaw:
 
     Without the ramp the leg's speed per cam angle would start at infinity, and the pressure angle at 90°.
 
-    Attributes
-    ----------
-    compression_rad
-        Leg angle at the end of the lift.
-    stiffness_nm_per_rad
-        Stiffness of both springs together.
-    lift_rad, ramp_rad
-        Cam angle of the whole lift, and of the ramp at its beginning.
-    preload_rad
-        How far the springs are loaded at the beginning of the lift.
+    - `compression_rad`: Leg angle at the end of the lift.
+    - `stiffness_nm_per_rad`: Stiffness of both springs together.
+    - `lift_rad`, `ramp_rad`: Cam angle of the whole lift, and of the ramp at its beginning.
+    - `preload_rad`: How far the springs are loaded at the beginning of the lift.
     """
 
     compression_rad: float

@@ -28,46 +28,32 @@ WORN_MAX_MM = 4.0
 class CamLimits:
     """The limits of a cam; lengths in mm, angles in rad. Values that a workshop gives have no default here.
 
-    Attributes
-    ----------
-    roller_radius_mm, roller_load_n, cam_width_mm
-        Radius of the roller, its static load rating, and the width on which it runs.
-    gap_min_mm
-        Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the lever's
-        plane.
-    core_radius_mm
-        Radius around the cam's axis that must stay solid: it carries the dog's boss.
-    modulus_mpa, poisson, pressure_mpa
-        Of the cam's material, against a steel roller. Rolling line contact shakes down to an elastic state up to 4k, k
-        the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa for a printed PETG that yields at 45 MPa
-        in tension (judgement), less 15 %.
-    shakedown_mpa
-        The same 4k without reserve, at which a worn corner stays as it is.
-    lift_rad, ramp_rad
-        Cam angle of the lift and of its ramp; what is left of the turn is for release and drop. Judgement: a longer
-        ramp costs torque, a shorter one a larger cam.
-    hub_radius_mm, clearance_mm
-        Radius of what is around the leg's pivot in the cam's plane, and its gap to the cam. Leg and lever lie
-        beside that plane; a spring's coil that is larger replaces the default, a bushing on a 3 mm axle (judgement).
-    pressure_angle_rad, undercut_margin_mm
-        Largest pressure angle (judgement: more than the 35° that handbooks advise for followers that pivot, since this
-        cam turns slowly), and least profile radius where the pitch curve is convex (judgement: one printed line).
-    overshoot_rad
-        How far the leg may swing past rest before the roller meets the cam; judgement.
-    reserve_rad
-        Cam angle that the motor may turn while the leg swings back, with that room still free; judgement.
-    play_rad
-        Free play of the cam's dog where it is given, instead of the rule in `dog`.
-    axis_max_rad, axis_min_rad
-        Direction of the cam's axis from the hub, counter-clockwise from forward: farthest back, and
-        farthest forward; judgement: above the hub, away from the moving links.
-    lever_loaded_max_rad
-        Largest direction of the lever with the springs loaded (pi: level with the pivots).
-    lowest_mm
-        The cam stays above this height over the hub.
-    lever_max_mm, gap_max_mm, lead_max_rad
-        Upper bounds of the search: lever, distance from its circle to the cam's axis, lead of the lever over it.
-        Judgement: there is no room for larger ones in a body.
+    - `roller_radius_mm`, `roller_load_n`, `cam_width_mm`: Radius of the roller, its static load rating, and the width
+      on which it runs.
+    - `gap_min_mm`: Least distance from the circle of the lever's end to the cam's axis, for the axle that crosses the
+      lever's plane.
+    - `core_radius_mm`: Radius around the cam's axis that must stay solid: it carries the dog's boss.
+    - `modulus_mpa`, `poisson`, `pressure_mpa`: Of the cam's material, against a steel roller. Rolling line contact
+      shakes down to an elastic state up to 4k, k the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa
+      for a printed PETG that yields at 45 MPa in tension (judgement), less 15 %.
+    - `shakedown_mpa`: The same 4k without reserve, at which a worn corner stays as it is.
+    - `lift_rad`, `ramp_rad`: Cam angle of the lift and of its ramp; what is left of the turn is for release and drop.
+      Judgement: a longer ramp costs torque, a shorter one a larger cam.
+    - `hub_radius_mm`, `clearance_mm`: Radius of what is around the leg's pivot in the cam's plane, and its gap to the
+      cam. Leg and lever lie beside that plane; a spring's coil that is larger replaces the default, a bushing on a 3 mm
+      axle (judgement).
+    - `pressure_angle_rad`, `undercut_margin_mm`: Largest pressure angle (judgement: more than the 35° that handbooks
+      advise for followers that pivot, since this cam turns slowly), and least profile radius where the pitch curve is
+      convex (judgement: one printed line).
+    - `overshoot_rad`: How far the leg may swing past rest before the roller meets the cam; judgement.
+    - `reserve_rad`: Cam angle that the motor may turn while the leg swings back, with that room still free; judgement.
+    - `play_rad`: Free play of the cam's dog where it is given, instead of the rule in `dog`.
+    - `axis_max_rad`, `axis_min_rad`: Direction of the cam's axis from the hub, counter-clockwise from forward: farthest
+      back, and farthest forward; judgement: above the hub, away from the moving links.
+    - `lever_loaded_max_rad`: Largest direction of the lever with the springs loaded (pi: level with the pivots).
+    - `lowest_mm`: The cam stays above this height over the hub.
+    - `lever_max_mm`, `gap_max_mm`, `lead_max_rad`: Upper bounds of the search: lever, distance from its circle to the
+      cam's axis, lead of the lever over it. Judgement: there is no room for larger ones in a body.
     """
 
     roller_radius_mm: float

@@ -60,17 +60,12 @@ def synthesise_cam(law: CamLaw, limits: CamLimits) -> Cam:
     outline = geometry.outline_mm()
     radii = np.hypot(*outline.T)
     return Cam(
-        geometry=geometry,
-        profile_mm=outline,
-        outer_radius_mm=float(radii.max()),
-        core_radius_mm=float(radii.min()),
+        geometry=geometry, profile_mm=outline, outer_radius_mm=float(radii.max()), core_radius_mm=float(radii.min()),
         max_pressure_angle_rad=float(numbers["pressure_angle"][0]),
-        min_convex_radius_mm=float(numbers["convex_radius"][0]),
-        peak_contact_n=float(numbers["force"][0]),
-        contact_pressure_mpa=float(numbers["pressure"][0]),
-        worn_mm=limits.worn_mm(float(numbers["force"][0])),
+        min_convex_radius_mm=float(numbers["convex_radius"][0]), peak_contact_n=float(numbers["force"][0]),
+        contact_pressure_mpa=float(numbers["pressure"][0]), worn_mm=limits.worn_mm(float(numbers["force"][0])),
         findings=cam_findings(limits, margin, numbers),
-    )
+    )  # fmt: skip
 
 
 class _Shapes:
@@ -207,12 +202,6 @@ def _geometry(law: CamLaw, limits: CamLimits, shape: Array, outer: Array) -> Cam
     lever, gap, lead = (float(value) for value in shape)
     highest, _ = axis_range(law, limits, np.array([lever + gap]), shape[2:], outer)
     return CamGeometry(
-        law=law,
-        lever_mm=lever,
-        axis_distance_mm=lever + gap,
-        axis_rad=float(highest[0]),
-        lead_rad=lead,
-        roller_radius_mm=limits.roller_radius_mm,
-        clearance_mm=limits.clearance_mm,
-        overshoot_rad=limits.overshoot_rad,
-    )
+        law=law, lever_mm=lever, axis_distance_mm=lever + gap, axis_rad=float(highest[0]), lead_rad=lead,
+        roller_radius_mm=limits.roller_radius_mm, clearance_mm=limits.clearance_mm, overshoot_rad=limits.overshoot_rad,
+    )  # fmt: skip

@@ -22,14 +22,9 @@ SEARCHED_RAD = 0.5
 class Corner:
     """The roller's path over the corner, at n evenly spaced cam angles while the two touch.
 
-    Attributes
-    ----------
-    cam_rad, wind_rad
-        Cam angle and leg angle (n,).
-    slope, bend
-        First and second derivative (n,) of the leg angle by the cam angle.
-    arm_mm
-        Lever arm (n,) of the contact force about the leg's pivot.
+    - `cam_rad`, `wind_rad`: Cam angle and leg angle (n,).
+    - `slope`, `bend`: First and second derivative (n,) of the leg angle by the cam angle.
+    - `arm_mm`: Lever arm (n,) of the contact force about the leg's pivot.
     """
 
     cam_rad: Array

@@ -14,10 +14,8 @@ import numpy.typing as npt
 
 from jumpcad.catalogue import Motor
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.gear_pair import GearPair, centre_distance_mm, gear_pair
-from jumpcad.drive.gears import DEDENDUM, Gear, least_shift
-from jumpcad.drive.motor import least_ratio, winding_s
-from jumpcad.drive.train_limits import TrainLimits
+from jumpcad.drive.gears import DEDENDUM, Gear, GearPair, centre_distance_mm, gear_pair, least_shift
+from jumpcad.drive.motor import TrainLimits, least_ratio, winding_s
 from jumpcad.transforms import Array
 
 Pairs = npt.NDArray[np.void]

@@ -37,7 +37,7 @@ BASIS = {
         "(1 + safety.kick_reserve)·T ≤ min(safety.motor_torque_max_nm, torque at which a pinion's teeth reach "
         "strength_in_plane_mpa/s) (mN·m); T largest torque at the gear motor after the cam reaches the "
         "end of the dog's play, same cases as `release_energy`",
-        f"impacts with rebound: jumpcad/drive/blows.py; {MODEL}; teeth: Lewis",
+        f"impacts with rebound: jumpcad/drive/dog.py; {MODEL}; teeth: Lewis",
     ),
     "cam_corner": Basis(
         "energy as in `release_energy`, but over a worn corner ≥ release.energy_ratio_min (%); its radius ρ is that at "
@@ -75,23 +75,17 @@ class MovingParts:
 class Release:
     """The release of one robot.
 
-    Attributes
-    ----------
-    off
-        Where the jump starts: the roller has left the corner as printed.
-    energy_ratio, rounded_ratio
-        Energy left in the springs plus the leg's kinetic energy, over the energy stored while the lever was bent: with
-        the corner as printed, and rounded.
-    bending_ratio
-        Energy stored while the lever was bent, over the energy stored with a rigid lever.
-    blow_nm, kick_nm, kick_limit_nm
-        Largest torque in the dog, at the cam; torque peak on the gear motor's output, and its limit.
-    gear_ratio, push_off_s
-        Motor turns per cam turn; time from release until the leg is as far past rest as it may swing.
-    worn_rad
-        How much earlier the leg begins to fall over a worn corner, as an angle of the cam.
-    free_play_rad, roll_over_rad, window_rad
-        Play of the dog; cam angle from the end of the lift until the roller can fall freely; range in which it can.
+    - `off`: Where the jump starts: the roller has left the corner as printed.
+    - `energy_ratio`, `rounded_ratio`: Energy left in the springs plus the leg's kinetic energy, over the energy stored
+      while the lever was bent: with the corner as printed, and rounded.
+    - `bending_ratio`: Energy stored while the lever was bent, over the energy stored with a rigid lever.
+    - `blow_nm`, `kick_nm`, `kick_limit_nm`: Largest torque in the dog, at the cam; torque peak on the gear motor's
+      output, and its limit.
+    - `gear_ratio`, `push_off_s`: Motor turns per cam turn; time from release until the leg is as far past rest as it
+      may swing.
+    - `worn_rad`: How much earlier the leg begins to fall over a worn corner, as an angle of the cam.
+    - `free_play_rad`, `roll_over_rad`, `window_rad`: Play of the dog; cam angle from the end of the lift until the
+      roller can fall freely; range in which it can.
     """
 
     off: RollerOff
@@ -137,51 +131,31 @@ def release(drive: Drive, moving: MovingParts, workshop: Workshop) -> Release:
     push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
     allowed, window = _kick_limit_nm(drive, workshop), clear_window_rad(geometry)
     return Release(
-        off=_roller_off(first, moving.spring),
-        energy_ratio=ratios[0],
-        rounded_ratio=ratios[1],
+        off=_roller_off(first, moving.spring), energy_ratio=ratios[0], rounded_ratio=ratios[1],
         bending_ratio=first.held_j / moving.spring.stored_j(-law.compression_rad),
-        blow_nm=max(rolled.blow_nm for rolled in printed + rounded),
-        kick_nm=kick,
-        kick_limit_nm=allowed,
-        gear_ratio=train.ratio,
-        push_off_s=push_off,
-        worn_rad=law.lift_rad - float(worn.cam_rad[0]),
-        free_play_rad=drive.dog.play_rad,
-        roll_over_rad=drive.cam.roll_over_rad,
-        window_rad=window,
-        parts=cases,
+        blow_nm=max(rolled.blow_nm for rolled in printed + rounded), kick_nm=kick, kick_limit_nm=allowed,
+        gear_ratio=train.ratio, push_off_s=push_off, worn_rad=law.lift_rad - float(worn.cam_rad[0]),
+        free_play_rad=drive.dog.play_rad, roll_over_rad=drive.cam.roll_over_rad, window_rad=window, parts=cases,
         findings=_findings(drive, workshop, (min(ratios), kept), kick, allowed, window[1], push_off),
-    )
+    )  # fmt: skip
 
 
 def _parts(
-    drive: Drive,
-    moving: MovingParts,
-    table: ReleaseTable,
-    contact_nm_per_rad: float,
-    rotor_kg_m2: float,
-    backlash_deg: float,
-    speed_share: float,
-) -> ReleaseParts:
+    drive: Drive, moving: MovingParts, table: ReleaseTable, contact_nm_per_rad: float, rotor_kg_m2: float,
+    backlash_deg: float, speed_share: float,
+) -> ReleaseParts:  # fmt: skip
     """Return the parts of a release with one motor, reflected to the cam; contact stiffness as at the lift's end."""
     train, lever_m = drive.train, drive.cam.lever_length_mm / 1000.0
     return ReleaseParts(
-        spring=moving.spring,
-        leg=moving.leg,
-        cam_kg_m2=moving.cam_kg_m2,
+        spring=moving.spring, leg=moving.leg, cam_kg_m2=moving.cam_kg_m2,
         gear_kg_m2=moving.cam_gear_kg_m2 + moving.pinion_kg_m2 * train.ratio**2,
-        rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2,
-        play_rad=drive.dog.play_rad,
+        rotor_kg_m2=rotor_kg_m2 * (train.motor.ratio * train.ratio) ** 2, play_rad=drive.dog.play_rad,
         backlash_rad=math.radians(backlash_deg) / train.ratio,
-        cam_rad_s=max(speed_share * train.cam_speed_rad_s, SLOWEST_RAD_S),
-        rebound=table.rebound,
-        friction_mm=table.friction * moving.bore_mm / 2.0,
-        train_nm_per_rad=table.train_nm_per_rad,
-        lever_nm_per_rad=moving.lever_n_per_m * lever_m**2,
-        contact_nm_per_rad=contact_nm_per_rad,
+        cam_rad_s=max(speed_share * train.cam_speed_rad_s, SLOWEST_RAD_S), rebound=table.rebound,
+        friction_mm=table.friction * moving.bore_mm / 2.0, train_nm_per_rad=table.train_nm_per_rad,
+        lever_nm_per_rad=moving.lever_n_per_m * lever_m**2, contact_nm_per_rad=contact_nm_per_rad,
         roller_kg_m2=moving.roller_kg * lever_m**2,
-    )
+    )  # fmt: skip
 
 
 def _roller_off(rolled: Rolled, spring: Spring) -> RollerOff:
@@ -210,14 +184,9 @@ def _told_apart(found: float, allowed: float) -> tuple[str, str]:
 
 
 def _findings(
-    drive: Drive,
-    workshop: Workshop,
-    ratios: tuple[float, float],
-    kick_nm: float,
-    allowed_nm: float,
-    window_rad: float,
+    drive: Drive, workshop: Workshop, ratios: tuple[float, float], kick_nm: float, allowed_nm: float, window_rad: float,
     push_off_s: float,
-) -> tuple[Finding, ...]:
+) -> tuple[Finding, ...]:  # fmt: skip
     (ratio, worn), least = ratios, 100.0 * workshop.release.energy_ratio_min
     play, over = math.degrees(drive.dog.play_rad), math.degrees(drive.cam.roll_over_rad)
     turned, reserved = drive.train.cam_speed_rad_s * push_off_s, (1.0 + workshop.safety.kick_reserve) * kick_nm

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.drive.blows import largest_torques_nm
 from jumpcad.drive.corner import Corner
+from jumpcad.drive.dog import largest_torques_nm
 from jumpcad.mechanism.model import Spring
 from jumpcad.mechanism.planar import ReflectedMass
 
@@ -32,25 +32,16 @@ LONGEST_S = 1e-4
 class ReleaseParts:
     """The parts of a release; inertias, angles and torques of the drive are reflected to the cam.
 
-    Attributes
-    ----------
-    spring, leg
-        Springs, and the robot's mass and weight reflected to its leg joint.
-    cam_kg_m2, gear_kg_m2, rotor_kg_m2
-        Cam, cam gear with what turns with it, and the motor's rotor times the square of the whole ratio.
-    play_rad, backlash_rad
-        The dog's play, and the backlash of gearhead and teeth.
-    cam_rad_s
-        Speed at which the gear pushes the cam over the end of the lift.
-    rebound
-        Coefficient of restitution between cam and gear.
-    friction_mm
-        Coefficient of friction times the radius of the cam's bore.
-    train_nm_per_rad
-        Stiffness of dog, teeth and gearhead, which stops the cam.
-    lever_nm_per_rad, contact_nm_per_rad, roller_kg_m2
-        Stiffness of the lever in bending and of roller on cam, and moment of inertia of roller and lever's end, at the
-        leg's joint.
+    - `spring`, `leg`: Springs, and the robot's mass and weight reflected to its leg joint.
+    - `cam_kg_m2`, `gear_kg_m2`, `rotor_kg_m2`: Cam, cam gear with what turns with it, and the motor's rotor times the
+      square of the whole ratio.
+    - `play_rad`, `backlash_rad`: The dog's play, and the backlash of gearhead and teeth.
+    - `cam_rad_s`: Speed at which the gear pushes the cam over the end of the lift.
+    - `rebound`: Coefficient of restitution between cam and gear.
+    - `friction_mm`: Coefficient of friction times the radius of the cam's bore.
+    - `train_nm_per_rad`: Stiffness of dog, teeth and gearhead, which stops the cam.
+    - `lever_nm_per_rad`, `contact_nm_per_rad`, `roller_kg_m2`: Stiffness of the lever in bending and of roller on cam,
+      and moment of inertia of roller and lever's end, at the leg's joint.
     """
 
     spring: Spring
@@ -85,14 +76,10 @@ class ReleaseParts:
 class Rolled:
     """One release over one corner.
 
-    Attributes
-    ----------
-    wind_rad, wind_rad_s
-        Angle and rate of the leg when the roller has left the cam for the last time.
-    kept_j, held_j
-        Energy left in the springs then, plus the leg's kinetic energy; and the energy stored before, the lever bent.
-    blow_nm, kick_nm
-        Largest torque in the dog, and in the gear train behind its backlash, both at the cam.
+    - `wind_rad`, `wind_rad_s`: Angle and rate of the leg when the roller has left the cam for the last time.
+    - `kept_j`, `held_j`: Energy left in the springs then, plus the leg's kinetic energy; and the energy stored before,
+      the lever bent.
+    - `blow_nm`, `kick_nm`: Largest torque in the dog, and in the gear train behind its backlash, both at the cam.
     """
 
     wind_rad: float
@@ -109,13 +96,9 @@ def roll(corner: Corner, parts: ReleaseParts, wound_rad: float) -> Rolled:
     release.run()
     spring, inertia = parts.spring, float(parts.leg.at(np.array(release.wind))[0])
     return Rolled(
-        release.wind,
-        release.rate,
-        spring.stored_j(-release.wind) + 0.5 * inertia * release.rate**2,
-        spring.stored_j(-parts.held_rad(wound_rad)),
-        release.blow_nm,
-        release.kick_nm,
-    )
+        release.wind, release.rate, spring.stored_j(-release.wind) + 0.5 * inertia * release.rate**2,
+        spring.stored_j(-parts.held_rad(wound_rad)), release.blow_nm, release.kick_nm,
+    )  # fmt: skip
 
 
 class _Release:

@@ -28,31 +28,22 @@ BASIS = {
 class SpringLimits:
     """Room and strength of the springs (mm, rad). Values that a workshop gives have no default here.
 
-    Attributes
-    ----------
-    mandrel_min_mm
-        The smallest bushing that can carry a coil.
-    pin_radius_min_mm
-        From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of the main leg.
-    pin_mm
-        Diameter of the pins.
-    stress_share
-        Allowable bending stress over tensile strength.
-    plate_pins_rad
-        Directions of the plates' pin that are tried, the preferred one first.
-    mandrel_clearance_mm
-        Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not bind.
-    outer_max_mm, body_lengths_max_mm
-        Largest diameter and lengths of the loaded coil.
-        The lengths are tried in this order: a long, thin spring widens the robot, a short one is
-        larger around the leg's axle. Judgement: the room beside the cam, and between leg and gears.
-    arm_reach_mm
-        From the outside of the coil to the pins; judgement: the longer the arms, the smaller their forces, which bend
-        the leg's axle and press on the plates; with 5 mm the strongest templates weigh 7 to 8 g more, with 12 mm the
-        coils of one have to be longer.
-    lever_max_mm
-        Of a stock spring's arms, from the coil to where they touch their pins; judgement: longer ones bend more than
-        the coil's rate says, and their pins leave the body.
+    - `mandrel_min_mm`: The smallest bushing that can carry a coil.
+    - `pin_radius_min_mm`: From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of
+      the main leg.
+    - `pin_mm`: Diameter of the pins.
+    - `stress_share`: Allowable bending stress over tensile strength.
+    - `plate_pins_rad`: Directions of the plates' pin that are tried, the preferred one first.
+    - `mandrel_clearance_mm`: Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not
+      bind.
+    - `outer_max_mm`, `body_lengths_max_mm`: Largest diameter and lengths of the loaded coil. The lengths are tried in
+      this order: a long, thin spring widens the robot, a short one is larger around the leg's axle. Judgement: the room
+      beside the cam, and between leg and gears.
+    - `arm_reach_mm`: From the outside of the coil to the pins; judgement: the longer the arms, the smaller their
+      forces, which bend the leg's axle and press on the plates; with 5 mm the strongest templates weigh 7 to 8 g more,
+      with 12 mm the coils of one have to be longer.
+    - `lever_max_mm`: Of a stock spring's arms, from the coil to where they touch their pins; judgement: longer ones
+      bend more than the coil's rate says, and their pins leave the body.
     """
 
     mandrel_min_mm: float
@@ -75,28 +66,16 @@ class SpringLimits:
 class TorsionSpring:
     """One of the two springs; the other is its mirror image. Lengths in mm, angles counter-clockwise from forward.
 
-    Attributes
-    ----------
-    arms
-        Coil, wire and pins where the arms touch them, at rest.
-    turns
-        Turns of the relaxed body; not a whole number, so that rate and pins are exact.
-    stiffness_nm_per_rad
-        Of this one spring.
-    preload_rad, wound_rad
-        Loading angle in the rest pose, and at the end of the lift.
-    plate_pin_rad, leg_pin_rad
-        Directions of the pins from the hub, in the rest pose.
-    body_length_mm
-        Length of the close-coiled body when loaded.
-    mandrel_mm
-        Largest bushing that clears the loaded coil.
-    stress_mpa, allowable_mpa
-        Bending stress when loaded, at the inner fibre, and its limit.
-    tensile_mpa
-        Tensile strength of the wire, at least.
-    stock
-        Name of the stock spring; empty where it is made to order.
+    - `arms`: Coil, wire and pins where the arms touch them, at rest.
+    - `turns`: Turns of the relaxed body; not a whole number, so that rate and pins are exact.
+    - `stiffness_nm_per_rad`: Of this one spring.
+    - `preload_rad`, `wound_rad`: Loading angle in the rest pose, and at the end of the lift.
+    - `plate_pin_rad`, `leg_pin_rad`: Directions of the pins from the hub, in the rest pose.
+    - `body_length_mm`: Length of the close-coiled body when loaded.
+    - `mandrel_mm`: Largest bushing that clears the loaded coil.
+    - `stress_mpa`, `allowable_mpa`: Bending stress when loaded, at the inner fibre, and its limit.
+    - `tensile_mpa`: Tensile strength of the wire, at least.
+    - `stock`: Name of the stock spring; empty where it is made to order.
     """
 
     arms: Arms
@@ -170,15 +149,9 @@ class TorsionSpring:
 
 
 def torsion_spring(
-    arms: Arms,
-    turns: float,
-    on_leg: Spring,
-    tensile_mpa: float,
-    wire: Wire,
-    limits: SpringLimits,
-    pins_rad: tuple[float, float],
-    stock: str = "",
-) -> TorsionSpring:
+    arms: Arms, turns: float, on_leg: Spring, tensile_mpa: float, wire: Wire, limits: SpringLimits,
+    pins_rad: tuple[float, float], stock: str = "",
+) -> TorsionSpring:  # fmt: skip
     """Return one spring with its loaded dimensions and stress; `pins_rad` are the plate's and the leg's."""
     d, wound = arms.wire_mm, on_leg.wind_rad + on_leg.preload_rad
     loaded_turns = turns + wound / FULL_TURN_RAD

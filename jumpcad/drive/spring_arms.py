@@ -19,13 +19,9 @@ ARM_BEYOND_MM = 2.0
 class Arms:
     """The two equal arms of one spring at rest.
 
-    Attributes
-    ----------
-    mean_mm, wire_mm, pin_mm
-        Mean diameter of the coil, and diameters of wire and pins.
-    lever_mm
-        From the tangent point to where an arm touches its pin; the arm's force on the pin, square to the arm, has this
-        lever about the hub.
+    - `mean_mm`, `wire_mm`, `pin_mm`: Mean diameter of the coil, and diameters of wire and pins.
+    - `lever_mm`: From the tangent point to where an arm touches its pin; the arm's force on the pin, square to the arm,
+      has this lever about the hub.
     """
 
     mean_mm: float

@@ -14,11 +14,10 @@ from jumpcad.drive.cam_search import synthesise_cam
 from jumpcad.drive.corner import clear_window_rad
 from jumpcad.drive.dog import PLAY_MORE_RAD, Dog, free_play_rad
 from jumpcad.drive.gear_choice import least_tip_mm
+from jumpcad.drive.motor import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
-from jumpcad.drive.spring_choice import synthesise_spring
-from jumpcad.drive.stock_spring import fitted_spring, rate_finding, springs_on_leg
+from jumpcad.drive.spring_choice import fitted_spring, rate_finding, springs_on_leg, synthesise_spring
 from jumpcad.drive.train import GearTrain, NoTrainError, synthesise_train
-from jumpcad.drive.train_limits import FACE_WIDTHS_MM, TrainLimits
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, higher
 
@@ -37,28 +36,20 @@ class DriveLimits:
     The cam's `hub_radius_mm` and the train's `cam_gear_tip_max_mm`, `cam_room_mm`, `idler_distance_min_mm`
     and `cam_speed_max_rad_s` are tightened by the spring and the cam that were found.
 
-    Attributes
-    ----------
-    motors
-        Names in the catalogue; an empty tuple allows all.
-    dog_mm
-        Diameter of the dog between cam and cam gear.
-    stock_spring, preload_rad
-        The springs from stock, None where they are made to order; how far they are loaded at rest.
-    gap_mm
-        Gap between parts that move past each other.
-    axle_radius_mm
-        Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
-        spring, and of an idler's axle beside the cam.
-    fall_s
-        Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is that of
-        robots of 0.1 kg with strong springs.
-    face_widths_mm
-        Face widths of gears, in the order tried: the next one where no gears are strong enough and also fit.
-    more_gap_mm
-        How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther axis makes
-        room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one pair are
-        left out. Judgement: a body has no room for more.
+    - `motors`: Names in the catalogue; an empty tuple allows all.
+    - `dog_mm`: Diameter of the dog between cam and cam gear.
+    - `stock_spring`, `preload_rad`: The springs from stock, None where they are made to order; how far they are loaded
+      at rest.
+    - `gap_mm`: Gap between parts that move past each other.
+    - `axle_radius_mm`: Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
+      spring, and of an idler's axle beside the cam.
+    - `fall_s`: Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is
+      that of robots of 0.1 kg with strong springs.
+    - `face_widths_mm`: Face widths of gears, in the order tried: the next one where no gears are strong enough and also
+      fit.
+    - `more_gap_mm`: How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther
+      axis makes room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one
+      pair are left out. Judgement: a body has no room for more.
     """
 
     spring: SpringLimits

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from jumpcad.catalogue import Motor
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.drive.gear_choice import by_cost
-from jumpcad.drive.gear_pair import GearPair
-from jumpcad.drive.motor import EMPTY_SHARE, allowed_nm, free_speed_rad_s, winding
-from jumpcad.drive.train_limits import TrainLimits
+from jumpcad.drive.gears import GearPair
+from jumpcad.drive.motor import EMPTY_SHARE, TrainLimits, allowed_nm, free_speed_rad_s, winding
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import SHOWN_AS, Basis, Finding, Remedy, at_most, higher, limit, lower
 
@@ -56,21 +55,15 @@ class NoTrainError(CannotBuildError):
 class GearTrain:
     """Motor and gear pairs, in order from the motor to the cam.
 
-    Attributes
-    ----------
-    motor, driven
-        As it is sold, and as it behaves at the battery's nominal voltage under load.
-    ratio, efficiency
-        Motor turns per cam turn; share of the motor's work that reaches the springs while they are loaded.
-    wheel_torques_nm
-        Largest torque on the wheel of each pair.
-    cam_speed_rad_s
-        Speed of the unloaded cam with a full battery.
-    motor_torque_nm
-        Largest torque on the motor's output.
-    winding_s, mean_current_a, peak_current_a, motor_j, boards_j
-        For one turn of the cam, which is one jump, at the battery's nominal voltage under load: time, currents of the
-        motor, and energy of motor and of boards. Waiting before the jump is not counted.
+    - `motor`, `driven`: As it is sold, and as it behaves at the battery's nominal voltage under load.
+    - `ratio`, `efficiency`: Motor turns per cam turn; share of the motor's work that reaches the springs while they are
+      loaded.
+    - `wheel_torques_nm`: Largest torque on the wheel of each pair.
+    - `cam_speed_rad_s`: Speed of the unloaded cam with a full battery.
+    - `motor_torque_nm`: Largest torque on the motor's output.
+    - `winding_s`, `mean_current_a`, `peak_current_a`, `motor_j`, `boards_j`: For one turn of the cam, which is one
+      jump, at the battery's nominal voltage under load: time, currents of the motor, and energy of motor and of boards.
+      Waiting before the jump is not counted.
     """
 
     motor: Motor

@@ -10,8 +10,7 @@ from typing import Any
 
 from jumpcad.catalogue import Board
 from jumpcad.catalogue.boards import GPIO
-from jumpcad.electronics.chain import supply_pin
-from jumpcad.electronics.chosen import Chosen
+from jumpcad.electronics.supply import Chosen, supply_pin
 from jumpcad.errors import CannotBuildError
 
 LOWER_OHM = 200_000

@@ -1,30 +1,77 @@
-"""Supply of the motor: battery, driver and PWM, and the power of the boards (V, A, ohm, N·m, W).
+"""The electrical parts of a workshop; supply of the motor: battery, driver, PWM, power of boards (V, A, ohm, N·m, W).
 
 A brushed motor is linear: with the resistance R = V/I_stall and the constants k of torque and voltage, a source of U
 in series with a resistance r turns the unloaded shaft with (U - I_0·(R + r))/k and stalls it with U/(R + r).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from jumpcad.catalogue import Motor
-from jumpcad.electronics.chosen import Chosen
+from jumpcad.catalogue import Battery, Board, Catalogue, Component, Motor
+from jumpcad.workshop import BoughtParts, Workshop
+
+COMPONENTS = ("sensor", "switch", "plug", "capacitor", "diode", "wire")
+"""Roles of small parts; a workshop may leave each out."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """Battery, boards and small parts; `components` holds those that are not left out, by role."""
+
+    battery: Battery
+    controller: Board
+    driver: Board
+    regulator: Board | None
+    components: dict[str, Component]
+
+    @property
+    def boards(self) -> dict[str, Board]:
+        """Every board by its role."""
+        boards = {"controller": self.controller, "driver": self.driver}
+        return boards | ({"regulator": self.regulator} if self.regulator else {})
+
+    @property
+    def diode(self) -> Component | None:
+        """The diode after the regulator."""
+        return self.components.get("diode") if self.regulator else None
+
+    @property
+    def charged_by_usb(self) -> bool:
+        """Tell whether the controller charges the battery: one cell, without a regulator between, and a charger.
+
+        A board that neither says `charge_ma` nor has pads for a cell has no charger.
+        """
+        charger = self.controller.charge_ma is not None or bool(self.controller.with_function("battery"))
+        return charger and self.regulator is None and self.battery.cells == 1
+
+
+def chosen_parts(workshop: Workshop) -> Chosen:
+    """Return the electrical parts of a workshop."""
+    return chosen_of(workshop.catalogue, workshop.bought)
+
+
+def chosen_of(catalogue: Catalogue, names: BoughtParts) -> Chosen:
+    """Return the electrical parts of those names in a catalogue."""
+    roles = [role for role in COMPONENTS if getattr(names, role)]
+    return Chosen(
+        battery=catalogue.batteries[names.battery],
+        controller=catalogue.boards[names.controller],
+        driver=catalogue.boards[names.driver],
+        regulator=catalogue.boards[names.regulator] if names.regulator else None,
+        components={role: catalogue.components[getattr(names, role)] for role in roles},
+    )
 
 
 @dataclass(frozen=True)
 class Supply:
     """A battery with a driver.
 
-    Attributes
-    ----------
-    empty_v, nominal_v, full_v
-        Of the battery without load.
-    ohm
-        Of battery and driver in series with the motor; the battery's is counted as if PWM did not lower its current.
-    boards_w
-        Power of controller, driver and regulator at the nominal voltage, whether the motor turns or not. The 1 to 2 mA
-        of the sensor's pull-up are not counted: they are within the scatter of the boards' currents.
-    usable_j
-        Energy of a full battery.
+    - `empty_v`, `nominal_v`, `full_v`: Of the battery without load.
+    - `ohm`: Of battery and driver in series with the motor; the battery's is counted as if PWM did not lower its
+      current.
+    - `boards_w`: Power of controller, driver and regulator at the nominal voltage, whether the motor turns or not. The
+      1 to 2 mA of the sensor's pull-up are not counted: they are within the scatter of the boards' currents.
+    - `usable_j`: Energy of a full battery.
     """
 
     empty_v: float
@@ -86,10 +133,60 @@ def supply_of(chosen: Chosen) -> Supply:
     share = 1.0 if regulator is None else regulator.efficiency
     boards_w = chosen.controller.quiescent_a * behind_v / share + boards_beside_a(chosen) * battery.voltage_v
     return Supply(
-        empty_v=empty,
-        nominal_v=battery.voltage_v,
-        full_v=full,
-        ohm=battery.ohm + chosen.driver.resistance_ohm,
-        boards_w=boards_w,
-        usable_j=3.6 * battery.capacity_mah * battery.voltage_v,
-    )
+        empty_v=empty, nominal_v=battery.voltage_v, full_v=full, ohm=battery.ohm + chosen.driver.resistance_ohm,
+        boards_w=boards_w, usable_j=3.6 * battery.capacity_mah * battery.voltage_v,
+    )  # fmt: skip
+
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Link:
+    """One part of the chain: `gets_v` is the voltage at its input `pin`, `bears_v` its rated range (None if unknown).
+
+    `role` is `controller`, `driver`, `regulator`, `motor` or a small part's; `remedy` says what to change.
+    """
+
+    role: str
+    name: str
+    pin: str
+    gets_v: Range
+    bears_v: Range | None
+    remedy: str
+
+
+def supply_pin(board: Board, volts: Range) -> str:
+    """Return the input rated for a range of volts, else the first; empty where none is known."""
+    bears = (pin for pin, (low, high) in board.supply_v.items() if low <= volts[0] and volts[1] <= high)
+    return next(bears, next(iter(board.supply_v), ""))
+
+
+def chain(chosen: Chosen, motor: Motor, supply: Supply, peak_a: float, torque_max_nm: float) -> Iterator[Link]:
+    """Yield every link; `peak_a` is the motor's largest current, which lowers an empty battery's voltage."""
+    battery = chosen.battery
+    empty, full = battery.range_v
+    direct = (empty - peak_a * battery.ohm, full)
+    logic = direct
+    regulator = chosen.regulator
+    if regulator is not None:
+        yield _board_link("regulator", regulator, direct, "another bought.regulator or bought.battery")
+        out = regulator.output_v or 0.0
+        drop = chosen.diode.drop_v if chosen.diode else 0.0
+        logic = (out - drop, out - drop)
+    remedy = "choose a bought.kit, a bought.battery within this range, or a bought.regulator before the controller"
+    yield _board_link("controller", chosen.controller, logic, remedy)
+    yield _board_link("driver", chosen.driver, direct, "choose a bought.kit, another bought.driver or bought.battery")
+    duty = supply.duty(motor, torque_max_nm)
+    mean = (duty * empty, duty * full)
+    yield Link("motor", motor.name, "winding", mean, motor.range_v,
+               "choose a bought.kit, a motor for this battery in bought.motors, or another bought.battery")  # fmt: skip
+    for role in ("switch", "plug", "capacitor"):
+        part = chosen.components.get(role)
+        if part is not None and part.rated_v is not None:
+            yield Link(role, part.name, "", direct, (0.0, part.rated_v), f"another bought.{role}")
+
+
+def _board_link(role: str, board: Board, volts: Range, remedy: str) -> Link:
+    pin = supply_pin(board, volts)
+    return Link(role, board.name, pin, volts, board.supply_v.get(pin), remedy)

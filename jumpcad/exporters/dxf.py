@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from jumpcad.parts.part import Part
-from jumpcad.robot.plates.engraving import ENGRAVING_MM
+from jumpcad.robot.plates.thing import ENGRAVING_MM
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack

@@ -18,9 +18,9 @@ from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.cage.place import Cage, CageBar
 from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
 from jumpcad.robot.electronics.limits import holding_findings
+from jumpcad.robot.foot.limits import toe_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
-from jumpcad.robot.foot.toe_limits import toe_findings
-from jumpcad.robot.leg.limits import leg_findings
+from jumpcad.robot.leg.thing import leg_findings
 from jumpcad.robot.load_case import LoadCase, load_case
 from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array

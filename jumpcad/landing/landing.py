@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.arguments import check_arguments
-from jumpcad.collision.stable_poses import share_on_feet
+from jumpcad.collision.hulls import share_on_feet
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.landing.arena import Arena, Floor

@@ -4,8 +4,8 @@ import math
 from collections.abc import Callable
 
 from jumpcad.building import built_and_checked
-from jumpcad.checks.righting import RIGHTED
-from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
+from jumpcad.checks.springs_loaded import RIGHTED
+from jumpcad.collision.hulls import least_share_on_feet, share_on_feet
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import choose, errors, higher

@@ -1,17 +1,19 @@
 """A printed part: a shape in printing orientation, and the places where it sits on the robot.
 
 Parts are drawn where they belong, in the x-z plane of their body's frame and over intervals of y (all mm), and then
-laid on the bed on their left or right face.
+laid on the bed on their left or right face. What a bundle says of a part's mass is here too.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 import numpy as np
 from manifold3d import Manifold
+from pydantic import Field, StrictFloat, StrictInt
 
+from jumpcad.files.records import Text
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.printing.bed import BedFit, fit_to_bed, require_bed
 from jumpcad.solids.blocks import Blocks
@@ -173,3 +175,18 @@ class Part:
     def __repr__(self) -> str:
         times = f"{self.quantity} x " if self.quantity > 1 else ""
         return f"<Part {self.name!r}: {times}{1000.0 * self.mass_kg:.2f} g of {self.material[:40]}, {self.mass_source}>"
+
+
+@dataclass(frozen=True)
+class MassLine:
+    """Mass of one piece, how many of it the robot has, and where the mass comes from.
+
+    `kind` is `printed`, `pad` (printed of a soft material) or `bought`.
+    """
+
+    kind: Literal["printed", "pad", "bought"]
+    name: Text
+    quantity: Annotated[StrictInt, Field(ge=1)]
+    material: Text
+    mass_kg: Annotated[StrictFloat, Field(ge=0.0)]
+    source: Text

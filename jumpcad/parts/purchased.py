@@ -1,4 +1,4 @@
-"""Bought parts as bodies: a shape for the assembly, and the catalogue's mass spread evenly over it."""
+"""Bought parts as bodies: a shape for the assembly, and the catalogue's mass spread evenly over it; boxes, screws."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from manifold3d import Manifold
 
+from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.mechanism.mass import MassProperties
+from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.parts.part import lying_on_left, lying_stack, shown_mesh_of, solid_of
-from jumpcad.solids.outline import Region
-from jumpcad.solids.slab import Slab
+from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring
+from jumpcad.solids.slab import Interval, Slab
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire, tube
 from jumpcad.transforms import Array, ByValue, chained, in_metres, pose_about_z
@@ -71,15 +73,9 @@ class BoughtPart(ByValue):
 
 
 def bought(
-    name: str,
-    article: str,
-    body: str,
-    mass_g: float,
-    slabs: Iterable[tuple[float, float, Region]],
-    at_mm: Sequence[float] = (0.0, 0.0, 0.0),
-    turn_rad: float = 0.0,
-    units: int = 1,
-) -> BoughtPart:
+    name: str, article: str, body: str, mass_g: float, slabs: Iterable[tuple[float, float, Region]],
+    at_mm: Sequence[float] = (0.0, 0.0, 0.0), turn_rad: float = 0.0, units: int = 1,
+) -> BoughtPart:  # fmt: skip
     """Return a bought part drawn as slabs (y0, y1, region in x-z), turned counter-clockwise in x-z and moved (mm).
 
     Copies drawn about their own origin are equal: one shape for all of them, measured once.
@@ -104,3 +100,55 @@ def _drawn(slabs: tuple[Slab, ...]) -> tuple[Stack, float, MassProperties]:
     """Return slabs along y laid on their left face, the y of that face, and the mass properties at unit density."""
     stack, _ = lying_stack((slab.z0_mm, slab.z1_mm, slab.outline) for slab in slabs)
     return stack, max(slab.z1_mm for slab in slabs), stack.mass_properties(1.0)
+
+
+@lru_cache(maxsize=64)
+def round_outline(outer_mm: float, bore_mm: float = 0.0) -> Region:
+    """Return a disc, or a ring, about the origin."""
+    return ring(outer_mm, bore_mm) if bore_mm else disc(outer_mm)
+
+
+@lru_cache(maxsize=64)
+def box_outline(width_mm: float, height_mm: float) -> Region:
+    """Return a rectangle about the origin."""
+    return rectangle((width_mm, height_mm))
+
+
+def placed_box(
+    name: str, article: str, x: float, y: float, z: float, size_x: float, size_y: float, size_z: float, mass_g: float
+) -> BoughtPart:
+    """Return a box of the body, at the middle of its underside, by its sizes along the axes (mm)."""
+    slabs = [(-size_y / 2.0, size_y / 2.0, box_outline(size_x, size_z))]
+    return bought(name, article, BODY, mass_g, slabs, (x, y, z + size_z / 2.0))
+
+
+def placed_screw(
+    name: str, body: str, centre: Array, shank: Interval, side: float, screw: Screw, catalogue: Catalogue
+) -> BoughtPart:
+    """Return a screw whose shank fills an interval of y; its head sits at the left end (side +1) or the right (-1)."""
+    height, width = screw.button_head_height_mm, screw.button_head_mm
+    length = round(shank[1] - shank[0], 6)
+    seat = length if side > 0 else -height
+    volume_mass = catalogue.rod_mass_g(screw.diameter_mm, length) + catalogue.rod_mass_g(width, 0.7 * height)
+    slabs = [(0.0, length, round_outline(screw.diameter_mm)), (seat, seat + height, round_outline(width))]
+    at = (centre[0], shank[0], centre[1])
+    return bought(name, f"screw {screw.name} x {length:g} {screw.norm}", body, volume_mass, slabs, at)
+
+
+@lru_cache(maxsize=64)
+def hexagon_outline(across_flats_mm: float, bore_mm: float) -> Region:
+    """Return a hexagon with a bore, about the origin."""
+    return hexagon(across_flats_mm) - hole(bore_mm)
+
+
+def interval(a: float, b: float) -> Interval:
+    """Return both ends of an interval, the lower one first."""
+    return (a, b) if a < b else (b, a)
+
+
+def bearing_part(name: str, centre: Array, right_mm: float, bearing: Bearing) -> BoughtPart:
+    """Return a bearing whose right side is at `right_mm` along y."""
+    slabs = [(0.0, bearing.width_mm, round_outline(bearing.outer_mm, bearing.bore_mm))]
+    at = (centre[0], right_mm, centre[1])
+    size = f"{bearing.bore_mm:g} x {bearing.outer_mm:g} x {bearing.width_mm:g} mm"
+    return bought(name, f"ball bearing {bearing.name} ZZ, {size}", MAIN_LEG, bearing.mass_g, slabs, at)

@@ -19,20 +19,19 @@ from jumpcad.dimensions import (
     STANDOFF_PAD_MM,
 )
 from jumpcad.drive import Drive
-from jumpcad.drive.socket import cap_ear_mm
+from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.robot.electronics.fitting_places import Fittings, fittings_of
+from jumpcad.robot.electronics.fittings import Fittings, fittings_of
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.electronics.tray_places import electronics_obstacle, standoff_places, tray_place
-from jumpcad.robot.leg.pin_hole import PinHole, pin_hole
+from jumpcad.robot.leg.place import PinHole, pin_hole
 from jumpcad.robot.sensor.place import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.robot.sizing import Sections, beside_leg_mm
 from jumpcad.robot.space.lateral import Lateral, lateral_stack
-from jumpcad.robot.space.obstacles import axle_obstacle, cam_obstacles, hub_obstacles, swept_obstacles
 from jumpcad.robot.space.room import Obstacle, disc, shortfall
-from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.space.sweep import axle_obstacle, cam_obstacles, hub_obstacles, legs_apart_mm, swept_obstacles
 from jumpcad.robot.springs.place import spring_boss_mm, spring_obstacles, spring_pin_place
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.robot.train.place import idler_obstacles, require_gear_room, require_shaft, train_obstacles, train_places
@@ -141,37 +140,21 @@ class Layout:
 
 
 def make_layout(
-    linkage: Linkage,
-    sections: Sections,
-    drive: Drive,
-    electronics: Electronics,
-    workshop: Workshop,
-    *,
-    hub_bearing: Bearing | None,
-    roller: Bearing,
-    toes_apart: bool,
-    plate_mm: float,
-    leg_pin_hole_mm: float,
-    sensor: SensorNeeds | None = None,
-    switch: Component | None = None,
-) -> Layout:
+    linkage: Linkage, sections: Sections, drive: Drive, electronics: Electronics, workshop: Workshop, *,
+    hub_bearing: Bearing | None, roller: Bearing, toes_apart: bool, plate_mm: float, leg_pin_hole_mm: float,
+    sensor: SensorNeeds | None = None, switch: Component | None = None,
+) -> Layout:  # fmt: skip
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
     `plate_mm` is the plates' thickness as grown, `leg_pin_hole_mm` the diameter of the left plate's hole through which
     the pin goes into the leg. Without `sensor` no switch says when the robot is wound.
     """
     lateral = lateral_stack(
-        sections.thickness_mm,
-        sections.lug_thickness_mm,
-        roller.width_mm,
-        drive.spring.body_length_mm,
-        tuple(stage.face_width_mm for stage in reversed(drive.train.stages)),
-        drive.train.motor,
-        plate_mm,
-        electronics.width_mm,
-        roller_screw_mm(sections.thickness_mm, roller, workshop.catalogue),
+        sections.thickness_mm, sections.lug_thickness_mm, roller.width_mm, drive.spring.body_length_mm,
+        tuple(stage.face_width_mm for stage in reversed(drive.train.stages)), drive.train.motor, plate_mm,
+        electronics.width_mm, roller_screw_mm(sections.thickness_mm, roller, workshop.catalogue),
         workshop.body.right_mm,
-    )
+    )  # fmt: skip
     bought, reserve_mm, axle_mm = workshop.bought, workshop.safety.room_reserve_mm, workshop.bought.axle_mm
     ear_mm = cap_ear_mm(workshop.fits.wall_min_mm)
     inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
@@ -213,34 +196,13 @@ def make_layout(
     boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
     fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
     return Layout(
-        linkage=linkage,
-        sections=sections,
-        drive=drive,
-        lateral=lateral,
-        electronics=electronics,
-        hub_bearing=hub_bearing,
-        toes_apart=toes_apart,
-        axle_mm=axle_mm,
-        retention=bought.retention,
-        toe_half_width_mm=max(workshop.body.toe_half_width_mm, float(toe_tip_mm(linkage.design)[1])),
-        hub_mm=hub,
-        front_mm=front,
-        cam_axis_mm=cam_axis,
-        idler_mm=idler,
-        motor_mm=motor,
-        motor_angle_rad=angle,
-        cap_ear_mm=ear_mm,
-        spring_pin_mm=spring_pin,
-        spring_boss_mm=boss,
-        leg_pin_mm=pin_radius,
-        pin_hole=through,
-        tray_mm=tray,
-        standoffs_mm=standoffs,
-        stop=stop,
-        leg_bar=workshop.leg_bar,
-        fittings=fittings,
-        sensor=felt,
-    )
+        linkage=linkage, sections=sections, drive=drive, lateral=lateral, electronics=electronics,
+        hub_bearing=hub_bearing, toes_apart=toes_apart, axle_mm=axle_mm, retention=bought.retention,
+        toe_half_width_mm=max(workshop.body.toe_half_width_mm, float(toe_tip_mm(linkage.design)[1])), hub_mm=hub,
+        front_mm=front, cam_axis_mm=cam_axis, idler_mm=idler, motor_mm=motor, motor_angle_rad=angle, cap_ear_mm=ear_mm,
+        spring_pin_mm=spring_pin, spring_boss_mm=boss, leg_pin_mm=pin_radius, pin_hole=through, tray_mm=tray,
+        standoffs_mm=standoffs, stop=stop, leg_bar=workshop.leg_bar, fittings=fittings, sensor=felt,
+    )  # fmt: skip
 
 
 def moving_obstacles(layout: Layout) -> list[Obstacle]:

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
 
 from jumpcad.drive.release import Release
-from jumpcad.electronics.chosen import Chosen, chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import Supply, supply_of
+from jumpcad.electronics.supply import Chosen, Supply, chosen_parts, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import DEVICE

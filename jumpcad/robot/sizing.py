@@ -13,7 +13,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
 from jumpcad.robot.stop.strength import BLOW_FACTOR, PEAK_SHARE
@@ -166,23 +166,15 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     toe_root = in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     rail_root = in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
-        thickness_mm=thickness,
-        leg_root_mm=leg_root,
-        leg_tip_mm=leg_tip,
+        thickness_mm=thickness, leg_root_mm=leg_root, leg_tip_mm=leg_tip,
         front_mm=max(grown_mm(HEIGHT_MIN_MM, growth.front), around),
-        lever_root_mm=in_hundredths(growth.lever * max(root, LEVER_MORE * bending)),
-        eye_radius_mm=eye,
-        lug_thickness_mm=lug,
-        foot_depth_mm=depth,
-        rail_root_mm=rail_root,
-        rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root),
-        toe_width_mm=TOE_WIDTH_MM,
-        toe_root_mm=toe_root,
+        lever_root_mm=in_hundredths(growth.lever * max(root, LEVER_MORE * bending)), eye_radius_mm=eye,
+        lug_thickness_mm=lug, foot_depth_mm=depth, rail_root_mm=rail_root,
+        rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root), toe_width_mm=TOE_WIDTH_MM, toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
         dog_mm=in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
-        stop_mm=in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)),
-        pad_mm=pad,
-    )
+        stop_mm=in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)), pad_mm=pad,
+    )  # fmt: skip
 
 
 def _socket_mm(workshop: Workshop) -> tuple[float, float]:

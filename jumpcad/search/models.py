@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from jumpcad.arguments import check_arguments, check_fields
-from jumpcad.building.refusal import statics_refusal
+from jumpcad.building.growth import statics_refusal
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES

@@ -16,7 +16,7 @@ import numpy as np
 from jumpcad.arguments import check_arguments, check_fields
 from jumpcad.design import PARAMETERS, PRINTED_BOUNDS, SEARCH_BOUNDS, Bounds, Design
 from jumpcad.drive import SpringLimits
-from jumpcad.drive.stock_spring import STIFFNESS, rest_angles_deg
+from jumpcad.drive.spring_choice import STIFFNESS, rest_angles_deg
 from jumpcad.errors import JumpcadError
 from jumpcad.robot.springs.place import PLATE_PINS_RAD
 from jumpcad.search.parameter import (

@@ -12,7 +12,7 @@ from jumpcad.catalogue import Bearing, Catalogue, Washer
 from jumpcad.design import Design
 from jumpcad.dimensions import ROLLER_WASHER_MM
 from jumpcad.drive import Drive
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.errors import JumpcadError
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop import Workshop
@@ -112,12 +112,8 @@ def loaded_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
 def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: float, bearing: Bearing) -> float:
     """Return the load of the more heavily loaded of two bearings.
 
-    Parameters
-    ----------
-    forces_n
-        Of the springs' arms, in the middle of the hub, and of the cam, as `loaded_forces_n` returns them.
-    leg_mm, roller_mm
-        Width of the leg, which may have to grow for the bearings, and of the roller beside it.
+    - `forces_n`: Of the springs' arms, in the middle of the hub, and of the cam, as `loaded_forces_n` returns them.
+    - `leg_mm`, `roller_mm`: Width of the leg, which may have to grow for the bearings, and of the roller beside it.
     """
     arms, cam = forces_n
     width = max(leg_mm, hub_width_mm(bearing))

@@ -11,7 +11,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.mechanism.model import BODY, Mechanism, Spring
 from jumpcad.transforms import Array, turned_about_y
@@ -37,20 +37,12 @@ class MovingMass:
 class PushOffForces:
     """Forces at n leg angles from release to rest; zero from take-off on. Vectors (n, 2) are x-z on a flat foot.
 
-    Attributes
-    ----------
-    leg_rad
-        Leg angles (n,), from loaded springs to 0.
-    ground_n
-        Force of the ground on the foot (n, 2).
-    ankle_n
-        Force of the foot on the main leg (n, 2).
-    front_eye_n
-        Force of the foot on the front link (n, 2).
-    leg_axial_n, front_n
-        Compression (n,) of the main leg and of the front link; negative is tension.
-    residual_n
-        Imbalance of forces and torques on the body (n,): the error of the finite differences.
+    - `leg_rad`: Leg angles (n,), from loaded springs to 0.
+    - `ground_n`: Force of the ground on the foot (n, 2).
+    - `ankle_n`: Force of the foot on the main leg (n, 2).
+    - `front_eye_n`: Force of the foot on the front link (n, 2).
+    - `leg_axial_n`, `front_n`: Compression (n,) of the main leg and of the front link; negative is tension.
+    - `residual_n`: Imbalance of forces and torques on the body (n,): the error of the finite differences.
     """
 
     leg_rad: Array
@@ -117,14 +109,10 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     ankle = axial[:, None] * along + shear[:, None] * across
     stands = np.cumprod(ground[:, 1] > 0.0).astype(float)
     return PushOffForces(
-        leg_rad=leg,
-        ground_n=ground * stands[:, None],
-        ankle_n=ankle * stands[:, None],
-        front_eye_n=(front_force * stands)[:, None] * front_along,
-        leg_axial_n=axial * stands,
-        front_n=front_force * stands,
-        residual_n=residual * stands,
-    )
+        leg_rad=leg, ground_n=ground * stands[:, None], ankle_n=ankle * stands[:, None],
+        front_eye_n=(front_force * stands)[:, None] * front_along, leg_axial_n=axial * stands,
+        front_n=front_force * stands, residual_n=residual * stands,
+    )  # fmt: skip
 
 
 def toe_load_n(forces: PushOffForces, design: Design, foot_depth_mm: float) -> Array:

@@ -13,7 +13,7 @@ from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.facts import arms_off_deg, torque_shares
-from jumpcad.robot.electronics.lead_ways import plate_of
+from jumpcad.robot.electronics.leads import plate_of
 from jumpcad.robot.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"

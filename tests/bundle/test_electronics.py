@@ -11,8 +11,7 @@ from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.dimensions import TIE_SLOT_MM
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
+from jumpcad.electronics.supply import chosen_parts, supply_of
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.electronics.limits import jumps_per_charge

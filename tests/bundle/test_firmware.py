@@ -10,8 +10,7 @@ from support.decimals import decimals
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers, release_share, start_v
 from jumpcad.catalogue import load_catalogue
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
+from jumpcad.electronics.supply import chosen_parts, supply_of
 from jumpcad.robot.robot import Robot
 
 

@@ -21,8 +21,8 @@ from jumpcad.bundle.guide.guide_values import _jump, _prong_mm, guide_values, lo
 from jumpcad.bundle.guide.operation_values import operation_values, pin_share, state_off_v
 from jumpcad.design import load_design
 from jumpcad.dimensions import AXLE_FLOOR_MM
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring
+from jumpcad.electronics.supply import chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot.robot import Robot
 

@@ -15,7 +15,7 @@ from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.order_values import _screw_axles, order_values, strap_mm
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.robot.electronics import wired
-from jumpcad.robot.leg.bars import END_PLAY_MM
+from jumpcad.robot.leg.place import END_PLAY_MM
 from jumpcad.robot.robot import Robot
 
 

@@ -12,8 +12,8 @@ import pytest
 from support.built import built, with_kit
 
 from jumpcad.bundle.drawings.soldering import soldering_svg
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
+from jumpcad.electronics.supply import chosen_parts
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop
 
 SPACE = "{http://www.w3.org/2000/svg}"

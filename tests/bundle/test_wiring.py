@@ -8,8 +8,8 @@ import shapely
 from support.built import of_kit
 
 from jumpcad.bundle.drawings.wiring import wires, wiring_svg
-from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.supply import chosen_parts
 from jumpcad.robot.robot import Robot
 
 SPACE = "{http://www.w3.org/2000/svg}"

@@ -10,14 +10,7 @@ from support.built import LONG_TOES, built, checked, of_kit, placed
 
 from jumpcad.building import assembly, build
 from jumpcad.checks import assembly as checked_assembly
-from jumpcad.checks.assembly import (
-    Blocked,
-    _tool,
-    assembly_findings,
-    assembly_ways,
-    paths,
-    tools,
-)
+from jumpcad.checks.assembly import Blocked, _tool, assembly_findings, assembly_ways, paths, tools
 from jumpcad.checks.interference import Piece, may_share
 from jumpcad.checks.printability import printability_findings
 from jumpcad.design import Design, load_design

@@ -9,12 +9,7 @@ import trimesh
 from support.each import each
 from support.said import well_told
 
-from jumpcad.checks.printability import (
-    _mesh_undersides,
-    _undersides,
-    bed_findings,
-    printability_findings,
-)
+from jumpcad.checks.printability import _mesh_undersides, _undersides, bed_findings, printability_findings
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY

@@ -9,8 +9,7 @@ import pytest
 from manifold3d import CrossSection
 from support import needs
 
-from jumpcad.drive.gear_pair import GearPair, gear_pair
-from jumpcad.drive.gears import Gear
+from jumpcad.drive.gears import Gear, GearPair, gear_pair
 
 PAIRS = [(12, 31, 1.0), (14, 40, 1.25), (17, 18, 1.5)]
 BACKLASH_MM = 0.15

@@ -9,8 +9,7 @@ from support.limits import default_limits, law_of
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.drive.gear_choice import _printable, by_cost, least_tip_mm
-from jumpcad.drive.gear_pair import gear_pair
-from jumpcad.drive.gears import Gear, least_shift
+from jumpcad.drive.gears import Gear, gear_pair, least_shift
 from jumpcad.drive.motor import winding_s
 from jumpcad.drive.train import NoTrainError, synthesise_train
 

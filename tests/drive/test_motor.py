@@ -2,13 +2,25 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
+from support.built import built
 from support.limits import default_limits
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.drive.cam_law import CamLaw
-from jumpcad.drive.motor import allowed_nm, free_speed_rad_s, least_ratio, lift_s, winding
+from jumpcad.drive.motor import (
+    allowed_nm,
+    cap_ear_mm,
+    free_speed_rad_s,
+    front_length_mm,
+    least_ratio,
+    lift_s,
+    socket_half_mm,
+    winding,
+    window_mm,
+)
 from jumpcad.electronics.supply import Supply
 
 MOTOR = load_catalogue().motors["n20-298"]
@@ -94,3 +106,68 @@ def test_the_cam_is_no_quicker_than_allowed_on_a_full_battery() -> None:
     full = supply.driven(MOTOR, 4.2, limits.blocked_nm).no_load_rpm * math.pi / 30.0
     assert full > supply.driven(MOTOR, 3.3, limits.blocked_nm).no_load_rpm * math.pi / 30.0
     assert full / least_ratio(law(1e-6), MOTOR, limits, 1) == pytest.approx(limits.cam_speed_max_rad_s)
+
+
+def test_the_socket_has_walls_around_the_motor_and_ears_across() -> None:
+    """A motor of 10 x 12 mm, 0.3 mm of play and a wall of 1.6 mm on every side, ears of 5.6 mm."""
+    motor = built("kenan-2.0").layout.drive.train.motor
+    assert (motor.width_mm, motor.height_mm) == (10.0, 12.0)
+    assert socket_half_mm(motor) == pytest.approx((5.0 + 1.9, 6.0 + 1.9 + 5.6))
+
+
+@pytest.mark.parametrize(("wall", "ear"), [(0.5, 5.6), (0.8, 5.64), (1.2, 6.44)])
+def test_ears_have_printable_walls_on_both_sides_of_a_counterbore_of_4_mm(wall: float, ear: float) -> None:
+    assert cap_ear_mm(wall) == pytest.approx(ear)
+
+
+def test_a_boss_that_is_longer_than_the_cap_reaches_further() -> None:
+    motor = built("kenan-2.0").layout.drive.train.motor
+    capped = front_length_mm(motor.model_copy(update={"boss_length_mm": 0.0}))
+    assert capped == front_length_mm(motor)
+    assert front_length_mm(motor.model_copy(update={"boss_length_mm": capped + 3.0})) == capped + 3.0
+
+
+def test_the_sockets_floor_holds_a_millimetre_of_the_motors_rear_on_every_side() -> None:
+    """A motor of 10 x 12 mm; the rest is open for terminals and wires."""
+    assert window_mm(built("kenan-2.0").layout.drive.train.motor) == (8.0, 10.0)
+
+
+def test_every_pair_takes_its_share_of_the_work() -> None:
+    limits = replace(default_limits().train, cam_efficiency=0.8, pair_efficiency=0.5)
+    assert [limits.efficiency(pairs) for pairs in (0, 1, 2)] == pytest.approx([0.8, 0.4, 0.2])
+
+
+def test_a_motor_asks_for_the_room_of_its_shaft_and_of_its_sockets_flat_side() -> None:
+    """A socket 10 + 2·1.9 mm wide, 12 + 2·(1.9 + 5.6) mm high: its nearer faces are 6.9 mm from the shaft."""
+    limits = replace(default_limits().train, cam_room_mm=9.0, shaft_wall_mm=1.5, pinion_root_min_mm=0.0)
+    motor = load_catalogue().motors["n20-298"]
+    beside = limits.beside(motor)
+    assert beside.motor_distance_min_mm == pytest.approx(9.0 + 6.9)
+    assert beside.pinion_root_min_mm == pytest.approx(1.5 + 1.5)
+    roomy = replace(limits, motor_distance_min_mm=20.0, pinion_root_min_mm=4.0).beside(motor)
+    assert (roomy.motor_distance_min_mm, roomy.pinion_root_min_mm) == (20.0, 4.0)
+
+
+def test_a_motor_winds_at_the_nominal_voltage_and_must_manage_with_an_empty_battery() -> None:
+    """Both at the torque at which it would block; a motor on a bench supply is as its data sheet says."""
+    asked = []
+    supply = SimpleNamespace(nominal_v=3.7, empty_v=3.3, driven=lambda *given: asked.append(given))
+    limits = replace(default_limits().train, supply=supply, blocked_nm=0.21)
+    motor = load_catalogue().motors["n20-298"]
+    limits.driven(motor)
+    limits.weakest(motor)
+    assert asked == [(motor, 3.7, 0.21), (motor, 3.3, 0.21)]
+    bench = replace(limits, supply=None)
+    assert bench.driven(motor) is bench.weakest(motor) is motor
+
+
+def test_an_idlers_wheel_passes_beside_the_spacers_of_the_cams_axle() -> None:
+    """Tubes of 6.4 mm, and 0.8 mm as between all that does not touch; a motor is as high as an N20, 12 mm."""
+    limits = default_limits().train
+    assert limits.axle_mm == pytest.approx(6.4 / 2.0 + 0.8)
+    assert limits.motor_distance_min_mm == load_catalogue().motors["n20-298"].height_mm
+
+
+def test_modules_are_those_of_iso_54() -> None:
+    """Its first series: 1, 1.25, 1.5, 2, 2.5, 3."""
+    assert set(default_limits().train.modules_mm) <= {1.0, 1.25, 1.5, 2.0, 2.5, 3.0}

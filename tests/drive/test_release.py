@@ -11,7 +11,7 @@ from support.said import well_told
 from support.strengths import with_motor_of
 
 from jumpcad import build, load_design, load_workshop
-from jumpcad.building.releasing import release_of
+from jumpcad.building.bodies import release_of
 from jumpcad.drive.corner import roll_over
 from jumpcad.drive.release import Release, _kick_limit_nm
 from jumpcad.drive.rolling import ReleaseParts, Rolled, roll

@@ -10,8 +10,7 @@ from support.springs import LENGTH_MM, LIMITS, NAMES, WIRE, spring_of
 
 from jumpcad.design import load_design
 from jumpcad.drive.spring import inner_fibre, torsion_spring
-from jumpcad.drive.spring_choice import synthesise_spring
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg, synthesise_spring
 
 
 @pytest.mark.parametrize("name", NAMES)

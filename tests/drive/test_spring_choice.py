@@ -17,9 +17,9 @@ from jumpcad.drive.spring_choice import (
     _arms_of,
     _finished,
     _smallest_arms,
+    springs_on_leg,
     synthesise_spring,
 )
-from jumpcad.drive.stock_spring import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.model import Spring
 

@@ -10,11 +10,9 @@ from support.built import built, geared, with_kit
 from support.limits import LP6, default_limits, law_of
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.drive.gear_pair import GearPair, gear_pair
-from jumpcad.drive.gears import Gear
+from jumpcad.drive.gears import Gear, GearPair, gear_pair
 from jumpcad.drive.train import _gear_findings, finished_train, synthesise_train
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
+from jumpcad.electronics.supply import chosen_parts, supply_of
 from jumpcad.errors import CannotBuildError
 
 MOTORS = [load_catalogue().motors[name] for name in LP6]

@@ -6,16 +6,8 @@ from dataclasses import replace
 import pytest
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.electronics.chosen import Chosen, chosen_of
-from jumpcad.electronics.nets import (
-    AT,
-    LOWER_OHM,
-    UPPER_OHMS,
-    Wiring,
-    gpio,
-    logic_range,
-    wiring_of,
-)
+from jumpcad.electronics.nets import AT, LOWER_OHM, UPPER_OHMS, Wiring, gpio, logic_range, wiring_of
+from jumpcad.electronics.supply import Chosen, chosen_of
 
 CATALOGUE = load_catalogue()
 KITS = ("light-1s", "strong-2s")

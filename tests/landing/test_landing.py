@@ -9,7 +9,7 @@ import pytest
 from support.built import built
 
 from jumpcad.bundle.motion import series_motion
-from jumpcad.collision.stable_poses import share_on_feet
+from jumpcad.collision.hulls import share_on_feet
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.landing import land, share_righted

@@ -15,7 +15,7 @@ from jumpcad.design import load_design
 from jumpcad.mechanism.model import MAIN_LEG
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.train.bought import _d_shaft
+from jumpcad.robot.train.thing import _d_shaft
 from jumpcad.strength.growth import Growth
 from jumpcad.workshop import load_workshop
 

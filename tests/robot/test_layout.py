@@ -24,9 +24,8 @@ from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import layout as layout_module
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.layout import Layout, make_layout, moving_obstacles
-from jumpcad.robot.space.obstacles import LEVER_HEAD_MM
 from jumpcad.robot.space.room import EVERYWHERE, disc
-from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.space.sweep import LEVER_HEAD_MM, legs_apart_mm
 from jumpcad.robot.train.place import require_gear_room
 from jumpcad.workshop import load_workshop
 
@@ -209,10 +208,7 @@ def test_the_reserve_is_kept_in_the_stops_room_and_between_the_legs() -> None:
     apart = legs_apart_mm(free.linkage, free.sections) - GAP_MM
     kept = planned(free.stop.room_mm - 0.01)
     assert kept.stop.room_mm == pytest.approx(0.01)
-    for reserve, limit, misses in (
-        (free.stop.room_mm + 0.01, "stop_room", 0.01),
-        (apart + 0.02, "legs_apart", 0.02),
-    ):
+    for reserve, limit, misses in ((free.stop.room_mm + 0.01, "stop_room", 0.01), (apart + 0.02, "legs_apart", 0.02)):
         layout_module._require_legs_apart(free.linkage, free.sections, GAP_MM + apart - 0.02)
         with pytest.raises(CannotBuildError, match=rf"as near as {GAP_MM + apart:.2g} mm; {GAP_MM + apart + 2.0:g} mm"):
             layout_module._require_legs_apart(free.linkage, free.sections, GAP_MM + apart + 2.0)

@@ -8,7 +8,7 @@ import pytest
 
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import GRAVITY_M_S2
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.settings import Settings

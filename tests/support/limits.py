@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from jumpcad.building.limits import drive_limits
+from jumpcad.building.bearing_and_drive import drive_limits
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import load_design
 from jumpcad.drive import DriveLimits

@@ -6,8 +6,7 @@ from dataclasses import replace
 from jumpcad.catalogue import load_catalogue
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import SpringLimits, TorsionSpring
-from jumpcad.drive.spring_choice import synthesise_spring
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg, synthesise_spring
 from support.limits import default_limits
 
 WIRE = load_catalogue().wire

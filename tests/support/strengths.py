@@ -3,15 +3,15 @@
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.findings import Finding
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.robot.axles.steel import steel_findings
-from jumpcad.robot.foot.toe_limits import toe_findings
-from jumpcad.robot.leg.limits import leg_findings
-from jumpcad.robot.plates.limits import seat_finding
+from jumpcad.robot.foot.limits import toe_findings
+from jumpcad.robot.leg.thing import leg_findings
+from jumpcad.robot.plates.thing import seat_finding
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.train.limits import drive_findings
+from jumpcad.robot.train.thing import drive_findings
 from jumpcad.workshop import Workshop
 from jumpcad.workshop.workshop import Role
 from support.said import ways

@@ -15,8 +15,7 @@ from jumpcad.electronics.nets import Terminal
 from jumpcad.exporters.dxf import sheet
 from jumpcad.files.rendering import fill
 from jumpcad.robot.electronics.fittings import wire_hole_mm
-from jumpcad.robot.electronics.lead_ways import outer_way, plate_of
-from jumpcad.robot.electronics.leads import OWN_LEGS
+from jumpcad.robot.electronics.leads import OWN_LEGS, outer_way, plate_of
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.slab import Interval

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.electronics.nets import Terminal
-from jumpcad.robot.electronics.lead_ways import battery_way, corners, outer_way, plate_of
-from jumpcad.robot.electronics.leads import OWN_LEGS, lead_lengths
+from jumpcad.robot.electronics.leads import OWN_LEGS, battery_way, corners, lead_lengths, outer_way, plate_of
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array

@@ -14,7 +14,7 @@ from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.rendering import fill
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.springs.wire import ORDERED
+from jumpcad.robot.springs.thing import ORDERED
 from jumpcad.transforms import Array
 
 FOLDER = "order"

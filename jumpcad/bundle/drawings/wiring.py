@@ -4,8 +4,8 @@ from typing import Any
 
 from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.bundle.drawings.soldering import soldering_svg
-from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import Net, Terminal, Wiring
+from jumpcad.electronics.supply import Chosen
 from jumpcad.files.rendering import fill
 from jumpcad.robot.electronics.leads import has_own_legs, lead_lengths
 from jumpcad.robot.robot import Robot

@@ -18,14 +18,14 @@ from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
 from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
-from jumpcad.drive.socket import window_mm
+from jumpcad.drive.motor import window_mm
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.springs.wire import ORDERED
+from jumpcad.robot.springs.thing import ORDERED
 from jumpcad.simulation import headline
 from jumpcad.steps.assembly_steps import ORDER, Step
 from jumpcad.steps.step_views import motor_sense

@@ -9,7 +9,7 @@ from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.files.rendering import render
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.springs.wire import CHOOSE
+from jumpcad.robot.springs.thing import CHOOSE
 from jumpcad.scene.visuals import Visual
 from jumpcad.steps.assembly_steps import Step, assembly_steps
 from jumpcad.steps.step_views import label_of

@@ -15,7 +15,7 @@ from jumpcad.electronics.supply import boards_beside_a
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.leads import lead_lengths
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.robot.stop.limits import free_release_j
+from jumpcad.robot.stop.thing import free_release_j
 
 STORED_V = 3.8
 """Per lithium polymer cell at rest, for storage; practice."""

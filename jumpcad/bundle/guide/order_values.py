@@ -13,7 +13,7 @@ from jumpcad.exporters.threemf import print_plates
 from jumpcad.robot.cage.place import SOCKET_MM, Cage, hoop_mm
 from jumpcad.robot.electronics.fittings import SWITCH_SLOT_MM
 from jumpcad.robot.foot.pads import printed_pads
-from jumpcad.robot.leg.bars import END_PLAY_MM
+from jumpcad.robot.leg.place import END_PLAY_MM
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_THREAD_MM
 

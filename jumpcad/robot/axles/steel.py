@@ -9,8 +9,7 @@ from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_AREA_MM2, SCREW_YIELD_MPA, clipped_pins
 from jumpcad.strength.bearings import allowed_n, bearing_load_n
-from jumpcad.strength.fatigue import YIELD_SHARE, pin_limit_mpa, spring_jumps, spring_share
-from jumpcad.strength.stress import pin_stress_mpa
+from jumpcad.strength.stress import YIELD_SHARE, pin_limit_mpa, pin_stress_mpa, spring_jumps, spring_share
 
 PINS = ("foot_pin", "leg_pin")
 """Clevis pins or rods; another bought.axle changes them only with clips."""
@@ -115,13 +114,8 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     lever = ROLLER_WASHER_MM + (lateral.cam[1] - lateral.cam[0]) / 2.0
     stress = pin_stress_mpa(layout.drive.cam.peak_contact_n * lever, ROLLER_SCREW_CORE_MM)
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
-    yield stress_finding(
-        "roller_screw_strength",
-        "the roller's screw, springs loaded",
-        stress,
-        allowed,
-        choose("a narrower", "bought.roller"),
-    )
+    ways = choose("a narrower", "bought.roller")
+    yield stress_finding("roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, ways)
 
 
 def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> Ways:

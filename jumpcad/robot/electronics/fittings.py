@@ -1,21 +1,111 @@
 """What the plates lack for switch, USB plug and wires, and where they need material for it (mm)."""
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from jumpcad.catalogue import Component
+from jumpcad.dimensions import CLEAR_MM, TRAY_MM
+from jumpcad.findings import higher
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot.electronics.fitting_places import (
-    HOLE_HALF_MM,
-    HOLE_MM,
-    RELIEF_APART_MM,
-    RELIEF_SLOT_MM,
-    RELIEF_UP_MM,
-    USB_EDGE_MM,
-    Fittings,
-    switch_half_mm,
-)
+from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
+from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.room import Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.outline import Region, hole, rectangle, stadium
+from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
+
+HOLE_MM = 5.0
+"""Of a wire hole; judgement: three leads with their heat-shrink."""
+RELIEF_UP_MM, RELIEF_APART_MM, RELIEF_SLOT_MM = 5.0, 5.2, (1.8, 3.4)
+"""A cable tie above the hole holds the leads: its two slots, above the hole's middle and apart; judgement."""
+HOLE_HALF_MM = (6.0, 8.0)
+"""Half of the plate's room for a hole with its tie."""
+SWITCH_DEPTH_MM = 5.0
+"""Behind the switch for terminals and the bend of their wires; judgement."""
+SWITCH_EDGE_MM = 1.2
+"""Material around the switch; judgement: three lines."""
+USB_EDGE_MM = 2.5
+"""Material around the opening for the USB plug; judgement, as around the trays' tabs."""
+GRID_MM = 2.0
+AROUND_MM = 45.0
+"""Places tried: this far around where something is wanted; judgement."""
+
+
+@dataclass(frozen=True)
+class Fittings:
+    """Places (2,) of the plates' openings; None for what a robot does not have.
+
+    `usb_mm` is the middle of the opening for the USB plug in the plate `usb_side`, `usb_size_mm` its size. The
+    switch lies along x at the inside of the right plate. Leads of sensor and motor pass the plates at `left_mm` and
+    `right_mm`.
+    """
+
+    switch: Component | None
+    switch_mm: Array | None
+    usb_mm: Array | None
+    usb_size_mm: tuple[float, float]
+    left_mm: Array
+    right_mm: Array
+    usb_side: Side | None
+
+
+def fittings_of(
+    obstacles: list[Obstacle], lateral: Lateral, electronics: Electronics, tray_mm: Array, switch: Component | None,
+    seats: list[Array], seat_mm: float,
+) -> Fittings:  # fmt: skip
+    """Return the places of all openings, as near to the boards as the plates are free.
+
+    `seats` are what the plates hold besides the obstacles, such as axles, which keep `seat_mm` around them.
+    """
+    low, high = lateral.inside
+    kept = [disc("axle's seat", place, seat_mm, (low - 100.0, high + 100.0)) for place in seats]
+    free = [*obstacles, *kept]
+    middle, (usb, usb_size) = electronics.middle_mm(tray_mm), _usb(electronics, lateral.inside, tray_mm)
+    if usb is not None:
+        half = (usb_size[0] / 2.0 + USB_EDGE_MM, usb_size[1] / 2.0 + USB_EDGE_MM)
+        plate = (low - 8.0, low + 0.1) if electronics.usb_side == "right" else (high - 0.1, high + 8.0)
+        free.append(box_obstacle("opening for USB", usb, half, 0.0, plate))
+    left = _near(middle, free, HOLE_HALF_MM, (high - 3.0, high + 8.0), "hole for the sensor's wires")
+    right = _near(middle, free, HOLE_HALF_MM, (low - 8.0, low + 3.0), "hole for the motor's wires")
+    free += [box_obstacle("hole for wires", right, HOLE_HALF_MM, 0.0, (low - 8.0, low + 8.0))]
+    place = None
+    if switch is not None and switch.length_mm:
+        half = switch_half_mm(switch)
+        depth = (low - 8.0, low + (switch.height_mm or 0.0) + SWITCH_DEPTH_MM)
+        place = _near(middle, free, half, depth, "switch")
+    side = None if usb is None else electronics.usb_side
+    return Fittings(switch if place is not None else None, place, usb, usb_size, left, right, side)
+
+
+def switch_half_mm(switch: Component) -> tuple[float, float]:
+    """Return half of the room that a switch needs in the plate."""
+    return (switch.length_mm or 0.0) / 2.0 + SWITCH_EDGE_MM, (switch.width_mm or 0.0) / 2.0 + SWITCH_EDGE_MM
+
+
+def _near(wanted: Array, obstacles: list[Obstacle], half: tuple[float, float], y: Interval, what: str) -> Array:
+    """Return the free place nearest to the wanted one."""
+    x, z = ((float(c) - AROUND_MM, float(c) + AROUND_MM) for c in wanted)
+    places = np.round(grid_candidates(x, z, GRID_MM), 6)
+    places = places[places[:, 1] > half[1]]  # above the pivots' line, where the plates are
+    index = best_place(
+        what, obstacles, places, (half[0] + CLEAR_MM / 2.0, half[1] + CLEAR_MM / 2.0), 0.0, y,
+        lambda p: np.linalg.norm(p - wanted, axis=1), higher("d_coef", "carrying_link_mm", note="a longer body"),
+    )  # fmt: skip
+    return np.asarray(places[index])
+
+
+def _usb(electronics: Electronics, inside: Interval, tray_mm: Array) -> tuple[Array | None, tuple[float, float]]:
+    """Return middle and size of the opening for the controller's USB plug."""
+    board = electronics.controller
+    if board.usb_mm is None:
+        return None, (0.0, 0.0)
+    seat = electronics.seats(inside)["controller"]
+    up = electronics.upper_tray_mm + TRAY_MM + TAPE_MM + board.usb_height_mm
+    return np.round(tray_mm + np.array([seat.x_mm, up]), 6), board.usb_mm
+
 
 KNOB_MM = (8.0, 4.4)
 """Slot for the switch's knob, along its travel and across; judgement: a knob of 4 x 3 mm that goes 3 mm."""

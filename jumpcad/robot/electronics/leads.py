@@ -9,6 +9,7 @@ import numpy as np
 
 from jumpcad.dimensions import TRAY_MM
 from jumpcad.electronics.nets import AT, Terminal, Wiring
+from jumpcad.robot.electronics.fittings import wire_hole_mm
 from jumpcad.robot.layout import Layout
 from jumpcad.transforms import Array
 
@@ -87,3 +88,91 @@ def way_in(layout: Layout, role: str) -> list[Array]:
     seat = seats.get(role, seats["controller"])  # what is soldered into a wire lies at the controller
     x, z = layout.tray_mm
     return [np.array([x + seat.x_mm, seat.y_mm, z + seat.bottom_mm + TRAY_MM])]
+
+
+BELOW_SCREW_MM = 5.0
+"""From a standoff's hole down to a lead outside the plate; judgement: its screw's head has a radius of 2.9 mm."""
+OPENING_EDGE_MM = 2.0
+"""From the opening for the USB plug to a lead; judgement."""
+AHEAD_MM = 3.0
+"""From the trays' front end to the battery's own leads; judgement."""
+
+
+def plate_of(layout: Layout, part: str) -> str:
+    """Return at which plate a part is: `left`, `right`, or empty where it lies on the trays."""
+    if part == "sensor" and layout.sensor is not None:
+        return "left"
+    return "right" if part == "motor" or (part == "switch" and layout.fittings.switch_mm is not None) else ""
+
+
+def battery_way(layout: Layout) -> Array:
+    """Return the corners (5, 3) of the way of the battery's own leads: ahead of the trays up to the plug."""
+    seats, (x, z) = layout.electronics.seats(layout.lateral.inside), layout.tray_mm
+    battery, plug = (
+        np.array([x + seat.x_mm + seat.size_mm[0] / 2.0, seat.y_mm, z + seat.bottom_mm + seat.size_mm[2] / 2.0])
+        for seat in (seats["battery"], seats.get("plug", seats["controller"]))
+    )
+    ahead = x + layout.electronics.length_mm / 2.0 + AHEAD_MM
+    low, high = np.array([ahead, *battery[1:]]), np.array([ahead, *plug[1:]])
+    return np.stack([battery, low, [ahead, battery[1], plug[2]], high, plug])
+
+
+def outer_way(layout: Layout, part: str) -> list[Array]:
+    """Return the points (3,) that a part's leads pass until they are inside, at the trays: through the wire hole."""
+    way = way_in(layout, part)
+    if len(way) == 1:
+        return way
+    place = layout.fittings.left_mm if plate_of(layout, part) == "left" else layout.fittings.right_mm
+    x, z = wire_hole_mm(place)
+    start, *through = way
+    outside, inside = (np.array([x, point[1], z]) for point in through)
+    return [start, *_beside(layout, part, start, outside), outside, inside]
+
+
+def corners(layout: Layout, one: str, other: str, start: Array, end: Array) -> list[Array]:
+    """Return the corners (3,) between two points inside.
+
+    At a plate a lead runs along it at the height of hole or switch, and down beside it; from board to board it crosses
+    in the gap between them.
+    """
+    (x0, y0, z0), (x1, y1, z1) = start, end
+    if plate_of(layout, one):
+        return [np.array([x1, y0, z0]), np.array([x1, y0, z1])]
+    if plate_of(layout, other):
+        return [np.array([x0, y1, z0]), np.array([x0, y1, z1])]
+    x = gap_mm(layout, float(x0), float(x1))
+    return [np.array([x, y0, z0]), np.array([x, y1, z1])]
+
+
+def gap_mm(layout: Layout, start_mm: float, end_mm: float) -> float:
+    """Return where a lead crosses between two places along the robot: in the first gap between boards, or half way."""
+    low, high = sorted((start_mm, end_mm))
+    gaps = [x for x in _gaps(layout) if low < x < high]
+    return min(gaps, key=lambda x: abs(x - start_mm), default=(low + high) / 2.0)
+
+
+def _gaps(layout: Layout) -> list[float]:
+    """Return where the gaps between boards are along the robot."""
+    seats = layout.electronics.seats(layout.lateral.inside)
+    found = []
+    for behind, ahead in itertools.pairwise(layout.electronics.boards):
+        edges = (seats[behind].x_mm + seats[behind].size_mm[0] / 2.0, seats[ahead].x_mm - seats[ahead].size_mm[0] / 2.0)
+        found.append(float(layout.tray_mm[0]) + sum(edges) / 2.0)
+    return found
+
+
+def _beside(layout: Layout, part: str, start: Array, end: Array) -> list[Array]:
+    """Return the points (3,) by which a lead outside passes below standoffs' screws, and beside the opening for USB."""
+    fittings, reach = layout.fittings, math.inf
+    kept = [(float(x), float(z), BELOW_SCREW_MM, 2.0 * reach) for x, z in layout.standoffs_mm]
+    if fittings.usb_mm is not None and plate_of(layout, part) == fittings.usb_side:
+        half = fittings.usb_size_mm[1] / 2.0 + OPENING_EDGE_MM
+        kept.append((float(fittings.usb_mm[0]), float(fittings.usb_mm[1]), half, half))
+    points = []
+    for x, z, below, above in kept:
+        share = (x - start[0]) / (end[0] - start[0]) if end[0] != start[0] else -1.0
+        at = start[2] + share * (end[2] - start[2])
+        if 0.0 < share < 1.0 and z - below < at < z + min(above, below):
+            over = above < reach and at > z
+            points.append(np.array([x, end[1], z + above if over else z - below]))
+    return sorted(points, key=lambda point: abs(float(point[0] - start[0])))

@@ -6,9 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.electronics.chain import Link, chain
-from jumpcad.electronics.chosen import Chosen
-from jumpcad.electronics.supply import Supply
+from jumpcad.electronics.supply import Chosen, Link, Supply, chain
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, limit
 from jumpcad.robot.electronics import wiring
 from jumpcad.robot.electronics.leads import way_in

@@ -9,13 +9,7 @@ from typing import Literal
 import numpy as np
 
 from jumpcad.catalogue import Battery, Board, Component
-from jumpcad.dimensions import (
-    STRAP_EDGE_MM,
-    STRAP_SLOT_MM,
-    TIE_SLOT_MM,
-    TRAY_LENGTH_MIN_MM,
-    TRAY_MM,
-)
+from jumpcad.dimensions import STRAP_EDGE_MM, STRAP_SLOT_MM, TIE_SLOT_MM, TRAY_LENGTH_MIN_MM, TRAY_MM
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

@@ -5,8 +5,7 @@ import numpy as np
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM
 from jumpcad.findings import higher
 from jumpcad.robot.electronics.place import Electronics
-from jumpcad.robot.space.places import best_place, grid_candidates
-from jumpcad.robot.space.room import EVERYWHERE, Obstacle, box_obstacle, disc
+from jumpcad.robot.space.room import EVERYWHERE, Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

@@ -6,13 +6,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component
-from jumpcad.electronics.chosen import Chosen, chosen_of
 from jumpcad.electronics.nets import Wiring, wiring_of
+from jumpcad.electronics.supply import Chosen, chosen_of
 from jumpcad.mechanism.model import BODY
-from jumpcad.parts.purchased import BoughtPart, bought
-from jumpcad.parts.simple import box_outline, placed_box, placed_screw
-from jumpcad.robot.electronics.fitting_places import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM
-from jumpcad.robot.electronics.fittings import SWITCH_SCREWS_MM
+from jumpcad.parts.purchased import BoughtPart, bought, box_outline, placed_box, placed_screw
+from jumpcad.robot.electronics.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM, SWITCH_SCREWS_MM
 from jumpcad.robot.electronics.leads import metres_by_colour
 from jumpcad.robot.electronics.place import BALANCE_MM, TAPE_MM, Electronics
 from jumpcad.robot.layout import Layout

@@ -4,9 +4,8 @@ from collections import Counter
 from collections.abc import Iterator
 
 from jumpcad.catalogue.boards import GPIO
-from jumpcad.electronics.chain import supply_pin
-from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, divider_ohm, logic_range
+from jumpcad.electronics.supply import Chosen, supply_pin
 from jumpcad.findings import Basis, Finding, Severity, at_least, at_most
 
 OWN_PULL_UP_OHM = 45_000

@@ -1,24 +1,175 @@
-"""Clearance of body, legs and lever above the ground while the legs move (mm)."""
+"""Clearance above the ground; strength of lugs, toes, rails, and of the leg bent sideways by a toe (N, N·mm, mm, MPa).
+
+At release the ground pushes on both toes' tips; at landing one of them may touch the ground first.
+"""
+
+import math
+from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.dimensions import AXLE_END_RADIUS_MM, PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, STOP_PAD_MM
-from jumpcad.drive.socket import socket_half_mm
+from jumpcad.dimensions import (
+    AXLE_END_RADIUS_MM,
+    PAD_WALL_MM,
+    STANDOFF_PAD_MM,
+    STOP_EDGE_MM,
+    STOP_PAD_MM,
+    TOE_TIP_WIDTH_MM,
+)
+from jumpcad.drive.motor import socket_half_mm
 from jumpcad.findings import Basis, Finding, at_least, higher, lower
+from jumpcad.robot.foot.toes import SCREWS_MM, joint_height_mm
+from jumpcad.robot.load_case import IN_PLANE, INTERLAYER, ONE_TOE, PUSH_OFF, WEAKER, LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.robot.stop.place import TAB_MM
 from jumpcad.robot.train.motor_socket import ear_places, motor_box
+from jumpcad.strength.loads import rail_moment_nmm, rail_twist_nmm, toe_moment_nmm
+from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 from jumpcad.transforms import Array, direction
+
+SOFTER = (*higher("e_coef", note="longer toes"), *WEAKER)
+"""A tip that is farther from the body's mass is met by less of it."""
+TIPS = "F largest load of both toes' tips in the push-off"
+BASIS = {
+    "foot_lug_strength": Basis(
+        f"max(F/(d·t), √3·F/((D - d)·t)) ≤ {INTERLAYER}; F half of the larger force of ankle and front link in the "
+        "push-off, t a lug's thickness, D twice the foot's depth, d bore",
+        f"joints loaded in shear: Shigley 8-12; distortion energy; {PUSH_OFF}",
+    ),
+    "toe_strength": Basis(
+        f"largest M·h/(2·I) along a toe ≤ {IN_PLANE}; M falls evenly from F·l5/2 at its root to 0, {TIPS}",
+        f"Shigley 3-10; {PUSH_OFF}",
+    ),
+    "rail_strength": Basis(
+        f"largest M·h/(2·I) along a rail ≤ {IN_PLANE}; M falls evenly from F·x/2 at the ankle to 0, {TIPS}, x its "
+        "distance behind the ankle",
+        f"Shigley 3-10; {PUSH_OFF}",
+    ),
+    "rail_twist": Basis(
+        f"√3·T/(b·c²)·(3 + 1.8·c/b) ≤ strength_in_plane_mpa/{TWIST_FACTOR:g} (MPa); T = F·(y - y0)/2, {TIPS}, y and y0 "
+        "distances of tip and rail from the robot's middle, b and c long and short side of the rail at the ankle",
+        "torsion: Shigley 3-12; distortion energy; the factor: judgement, the neck beside the ankle is short and the "
+        "pin takes a part",
+    ),
+    "toe_landing": Basis(
+        f"largest M·h/(2·I) along a toe ≤ {IN_PLANE}; M falls evenly from F·l5 at its root to 0, {ONE_TOE}",
+        "Shigley 3-10; impact beside the centre of mass: Meriam and Kraige, Dynamics, 6/8",
+    ),
+    "toe_bar_strength": Basis(
+        f"max(M·h/(2·I), √3·M/(b·c²)·(3 + 1.8·c/b)) ≤ {IN_PLANE}; M = F·length of the bar, {ONE_TOE}, b and c long and "
+        "short side of its section",
+        "bending and torsion: Shigley 3-10, 3-12; distortion energy",
+    ),
+    "toe_joint_strength": Basis(
+        f"max(F/(d·t), √3·F/((h - d)·t)) ≤ {IN_PLANE}; F = F_tip·(l5 - x1)/(x2 - x1) on the outer screw, screws at x1 "
+        "and x2, F_tip larger of F_toes/2 at release and the landing on one toe; d hole, h and t height and width",
+        "joints loaded in shear: Shigley 8-12; distortion energy",
+    ),
+    "leg_sideways": Basis(
+        f"largest √(σ² + 3·τ²) along the main leg ≤ {IN_PLANE}; M = F·toe_half_width_mm, {ONE_TOE}; σ of the bending "
+        "M·sin(rest_angle_deg) across its thickness, τ of the torsion M·cos(rest_angle_deg)",
+        "bending and torsion: Shigley 3-10, 3-12; distortion energy; that the front link carries nothing: judgement",
+    ),
+}
+
+
+def toe_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield the findings of `BASIS`; those of bars and screws of toes only where there are any."""
+    case = load_case(robot)
+    yield from (_lugs(case), *_foot(case), *_sideways(case))
+
+
+def _lugs(case: LoadCase) -> Finding:
+    """Return the finding of the lugs at the ankle: the foot prints on its sole, and they are pulled across layers."""
+    sections, bore = case.layout.sections, case.holes.lying(case.layout.axle_mm)
+    pull = max(case.ankle_n, case.front_n) / 2.0
+    stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
+    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
+    return stress_finding(
+        "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
+    )
+
+
+def _foot(case: LoadCase) -> Iterator[Finding]:
+    """Yield the findings of toes and rails."""
+    design, sections = case.robot.design, case.layout.sections
+    toes = case.toes_n
+    toe, rail = sections.toe(case.shell), sections.rail(case.shell)
+    stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
+    ways = (*lower("e_coef", note="shorter toes"), *WEAKER)
+    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, ways, "toe")
+    stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
+    yield stress_finding(
+        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, ways, "rail"
+    )
+    middle = rail_middle_mm(sections.thickness_mm, sections.lug_thickness_mm)
+    shear = bar_shear_mpa(rail_twist_nmm(design, toes, middle), sections.lug_thickness_mm, sections.rail_root_mm)
+    yield stress_finding(
+        "rail_twist", "the foot's rails twisted beside the ankle at release", VON_MISES * float(shear),
+        case.workshop.material("links").strength_in_plane_mpa / TWIST_FACTOR,
+        (*lower("ground_link_angle_deg"), *ways), "rail",
+    )  # fmt: skip
+    blow = case.toe_blow_n
+    stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
+    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, SOFTER, "toe")
+    if bar := case.layout.toe_bar_mm:
+        stress = _toe_bar_mpa(case, blow * bar)
+        yield stress_finding(
+            "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
+            lower("body.toe_half_width_mm"), "toe",
+        )  # fmt: skip
+    if case.layout.toes_apart:
+        stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
+        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, ways, "toe")
+
+
+def _toe_bar_mpa(case: LoadCase, moment_nmm: float) -> float:
+    """Return the stress of the bar across a toe's tip, bent by a landing on its end, which twists the toe as well."""
+    width, height = TOE_TIP_WIDTH_MM, case.layout.sections.toe_tip_height_mm
+    bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(moment_nmm))
+    return max(bending, VON_MISES * float(bar_shear_mpa(moment_nmm, width, height)))
+
+
+def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
+    """Return the stress beside the screws that hold a separate toe, with a force on its tip.
+
+    The outer screw carries the most: the force's moment about the inner one over their distance.
+    """
+    inner, outer = SCREWS_MM
+    force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
+    holes = case.holes
+    height, width = joint_height_mm(case.layout, holes), case.layout.sections.toe_width_mm
+    bores = (holes.fits.m3_tap_mm, holes.m3_clearance_mm)
+    return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
+
+
+def _sideways(case: LoadCase) -> Iterator[Finding]:
+    """Yield the finding of the main leg bent and twisted out of its plane by one toe's tip that lands first.
+
+    The impact's moment about the robot's long axis goes through the leg alone, the front link neglected: its part
+    across the leg bends the leg sideways, its part along the leg twists it.
+    """
+    sections, angle = case.layout.sections, math.radians(case.robot.design.rest_angle_deg)
+    moment = case.toe_blow_n * case.layout.toe_half_width_mm
+    heights = np.linspace(sections.leg_root_mm, sections.leg_tip_mm, STATIONS)
+    bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
+    shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
+    stress = float(np.max(np.hypot(bending, shear)))
+    yield stress_finding(
+        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, SOFTER, "thickness"
+    )
+
 
 GROUND_GAP_MM = 0.5
 """Least gap to the ground; judgement: play of the joints and the flexing of legs and foot."""
 POSITIONS = 9
-BASIS = {
+GROUND_BASIS = {
     "ground_clearance": Basis(
         f"least height above the ground of body, roller and legs' ends, from loaded to rest ≥ {GROUND_GAP_MM:g} mm + "
         "safety.gap_reserve_mm (mm), the foot flat",
         f"geometry; {GROUND_GAP_MM:g} mm: judgement, play of the joints and flexing of legs and foot",
-    ),
+    )
 }
 
 

@@ -1,4 +1,4 @@
-"""Pads that are cut from strip, or printed, and glued on: under nose and toes, and on the rest stop (mm)."""
+"""What is bought for foot and stop: screws of separate toes, pads cut from strip, or printed, and glued on (mm, g)."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -11,7 +11,8 @@ from jumpcad.catalogue import Pad
 from jumpcad.dimensions import STOP_PAD_MM, TOE_TIP_WIDTH_MM
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
-from jumpcad.parts.purchased import BoughtPart, bought
+from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.purchased import BoughtPart, bought, interval, placed_screw
 from jumpcad.robot.foot import toes
 from jumpcad.robot.foot.drawing import nose_outline
 from jumpcad.robot.layout import Layout
@@ -131,15 +132,42 @@ def _toe_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
 
 
 def _pad(
-    name: str,
-    pad: Pad,
-    body: str,
-    slabs: list[tuple[float, float, Region]],
-    size_mm: tuple[float, float],
+    name: str, pad: Pad, body: str, slabs: list[tuple[float, float, Region]], size_mm: tuple[float, float],
     at_mm: tuple[float, float, float],
-) -> BoughtPart:
+) -> BoughtPart:  # fmt: skip
     """Return a pad with the size to cut, its mass from its volume."""
     volume = sum((y1 - y0) * region.area() for y0, y1, region in slabs)
     size = f"{size_mm[0]:.1f} x {size_mm[1]:.1f}"
     article = name if pad.printed else f"{pad.description}, cut {size} mm"
     return bought(name, article, body, pad.density_g_cm3 * volume / 1000.0, slabs, at_mm)
+
+
+TOE_THREAD_MM = 4.0
+"""Least length of thread of a toe's screw in the foot's stub."""
+
+
+def foot_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield what is bought for the foot: screws, and pads."""
+    yield from toe_screws(layout, workshop)
+    yield from foot_pads(layout, workshop)
+
+
+def toe_screws(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield the screws of separate toes, from outside into the foot's stubs."""
+    if not layout.toes_apart:
+        return
+    holes = HoleSizes.of(workshop, layout.hub_bearing)
+    screw, height = (
+        workshop.catalogue.screws["M3"],
+        toes.joint_height_mm(layout, holes) / 2.0 - layout.sections.foot_depth_mm,
+    )
+    outer = toes.beside_mm(layout, holes) + layout.sections.toe_width_mm / 2.0
+    length = screw.length_for(layout.sections.toe_width_mm + TOE_THREAD_MM)
+    for toe in toes.toes(layout):
+        pose = toe.pose_mm
+        shank = interval(toe.outside * outer, toe.outside * (outer - length))
+        for number, x in enumerate(toes.SCREWS_MM, start=1):
+            name = f"{toe.name}_screw_{number}"
+            yield placed_screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, workshop.catalogue).moved(
+                pose
+            )

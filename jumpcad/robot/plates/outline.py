@@ -9,13 +9,13 @@ from scipy.spatial import Delaunay
 
 from jumpcad.dimensions import PAD_WALL_MM, STANDOFF_PAD_MM, STOP_EDGE_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.part import Face
-from jumpcad.robot.cage.drawing import horns
 from jumpcad.robot.cage.place import Cage
+from jumpcad.robot.cage.thing import horns
 from jumpcad.robot.electronics.fittings import fitting_pads
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.sensor.drawing import plate_pad
-from jumpcad.robot.stop.drawing import stop_slot
+from jumpcad.robot.sensor.thing import plate_pad
 from jumpcad.robot.stop.place import EAR_MM
+from jumpcad.robot.stop.thing import stop_slot
 from jumpcad.robot.train.motor_socket import socket_outline
 from jumpcad.solids.outline import (
     SAGITTA_MM,

@@ -16,8 +16,7 @@ from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, higher
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import TURN_STEPS, around, best_place
-from jumpcad.robot.space.room import Obstacle, box_obstacle, disc, shortfall
+from jumpcad.robot.space.room import TURN_STEPS, Obstacle, around, best_place, box_obstacle, disc, shortfall
 from jumpcad.transforms import Array
 
 GEAR_PLAY_MM = 0.1
@@ -48,20 +47,12 @@ PLACE_WANTED_MM = np.array([0.0, 14.0])
 class SensorNeeds:
     """A switch and what its place depends on.
 
-    Attributes
-    ----------
-    part, travel
-        The switch, and the positions of its plunger.
-    axial_mm
-        How far the land's height under the plunger may be from the drawing, either way.
-    along_mm
-        How far land and plunger may be off along the track, either way.
-    stop_rad
-        How far the cam turns at most from the switch's contact until it stands.
-    reserve_rad
-        Kept free besides, before the drop and after it.
-    layer_mm
-        Layer height: the land's ramps climb one layer a step.
+    - `part`, `travel`: The switch, and the positions of its plunger.
+    - `axial_mm`: How far the land's height under the plunger may be from the drawing, either way.
+    - `along_mm`: How far land and plunger may be off along the track, either way.
+    - `stop_rad`: How far the cam turns at most from the switch's contact until it stands.
+    - `reserve_rad`: Kept free besides, before the drop and after it.
+    - `layer_mm`: Layer height: the land's ramps climb one layer a step.
     """
 
     part: Component
@@ -77,28 +68,17 @@ class SensorNeeds:
 class SensorPlace:
     """Where the switch is, and the track that it feels.
 
-    Attributes
-    ----------
-    needs
-        What it was placed for.
-    place_mm
-        The plunger's axis (2,) in the body frame's x-z plane.
-    turn_rad
-        Turn of the switch's long side in x-z, counter-clockwise from x.
-    direction_rad
-        Direction of the plunger from the cam's axis, counter-clockwise from x.
-    radius_mm
-        Of the plunger from the cam's axis.
-    half_width_mm
-        Half of the groove's width.
-    depth_mm
-        Of the groove below the land.
-    base_mm
-        From the plate's outer face to the switch's base, outwards.
-    scatter_rad
-        How far the angle at which the switch operates may be from the drawn one, either way.
-    ready_rad, open_rad
-        Cam angle before the end of the lift at which it closes, and after it at which it opens again, as drawn.
+    - `needs`: What it was placed for.
+    - `place_mm`: The plunger's axis (2,) in the body frame's x-z plane.
+    - `turn_rad`: Turn of the switch's long side in x-z, counter-clockwise from x.
+    - `direction_rad`: Direction of the plunger from the cam's axis, counter-clockwise from x.
+    - `radius_mm`: Of the plunger from the cam's axis.
+    - `half_width_mm`: Half of the groove's width.
+    - `depth_mm`: Of the groove below the land.
+    - `base_mm`: From the plate's outer face to the switch's base, outwards.
+    - `scatter_rad`: How far the angle at which the switch operates may be from the drawn one, either way.
+    - `ready_rad`, `open_rad`: Cam angle before the end of the lift at which it closes, and after it at which it opens
+      again, as drawn.
     """
 
     needs: SensorNeeds
@@ -165,14 +145,9 @@ def sensor_place(
 ) -> SensorPlace:  # fmt: skip
     """Return the place of the switch beside the cam gear: along its track, where the plate is free.
 
-    Parameters
-    ----------
-    obstacles
-        What is in the body and moves about it.
-    axles
-        Places of axles and pins that the plate holds, by name; the switch keeps away from their seats.
-    motor
-        The motor's shaft, which may end in the plate.
+    - `obstacles`: What is in the body and moves about it.
+    - `axles`: Places of axles and pins that the plate holds, by name; the switch keeps away from their seats.
+    - `motor`: The motor's shaft, which may end in the plate.
     """
     travel, half = needs.travel, _half_mm(needs.part)
     low, high, width = _track_mm(drive, needs)
@@ -211,18 +186,11 @@ def sensor_place(
         scatter = (slope + needs.along_mm) / radius
         reach = lateral.left_plate[1] - lateral.gears[0][1]
         return SensorPlace(
-            needs=needs,
-            place_mm=places[best],
-            turn_rad=direction + math.pi / 2.0,
-            direction_rad=direction,
-            radius_mm=radius,
-            half_width_mm=width / 2.0,
-            depth_mm=depth,
-            base_mm=middle_mm(travel) - reach - _slack_mm(),
-            scatter_rad=scatter,
-            ready_rad=scatter + needs.stop_rad + needs.reserve_rad,
-            open_rad=scatter + needs.reserve_rad,
-        )
+            needs=needs, place_mm=places[best], turn_rad=direction + math.pi / 2.0, direction_rad=direction,
+            radius_mm=radius, half_width_mm=width / 2.0, depth_mm=depth,
+            base_mm=middle_mm(travel) - reach - _slack_mm(), scatter_rad=scatter,
+            ready_rad=scatter + needs.stop_rad + needs.reserve_rad, open_rad=scatter + needs.reserve_rad,
+        )  # fmt: skip
     assert refusal is not None
     raise refusal
 

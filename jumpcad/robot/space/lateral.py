@@ -8,15 +8,8 @@ lies across, its shaft to the left.
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import (
-    BUSHING_PLAY_MM,
-    GAP_MM,
-    MOTOR_CAP_MM,
-    ROLLER_HEAD_MM,
-    ROLLER_WASHER_MM,
-    TERMINALS_MM,
-)
-from jumpcad.drive.socket import front_length_mm
+from jumpcad.dimensions import BUSHING_PLAY_MM, GAP_MM, MOTOR_CAP_MM, ROLLER_HEAD_MM, ROLLER_WASHER_MM, TERMINALS_MM
+from jumpcad.drive.motor import front_length_mm
 from jumpcad.solids.slab import Interval
 
 HEAD_GAP_MM = GAP_MM + 2.0 * BUSHING_PLAY_MM + 0.2
@@ -60,37 +53,20 @@ class Lateral:
 
 
 def lateral_stack(
-    leg_mm: float,
-    lug_mm: float,
-    roller_width_mm: float,
-    spring_length_mm: float,
-    gear_widths_mm: tuple[float, ...],
-    motor: Motor,
-    plate_mm: float,
-    tray_width_mm: float,
-    roller_screw_mm: float,
-    right_mm: float = 0.0,
-) -> Lateral:
+    leg_mm: float, lug_mm: float, roller_width_mm: float, spring_length_mm: float, gear_widths_mm: tuple[float, ...],
+    motor: Motor, plate_mm: float, tray_width_mm: float, roller_screw_mm: float, right_mm: float = 0.0,
+) -> Lateral:  # fmt: skip
     """Stack everything across the robot.
 
-    Parameters
-    ----------
-    leg_mm, lug_mm
-        Thickness of legs and of the foot's lugs beside them.
-    roller_width_mm, spring_length_mm
-        Width of the roller bearing, and length of one spring's loaded coil.
-    gear_widths_mm
-        Face widths of the gear planes, the cam gear's first, the motor pinion's last.
-    motor
-        The gear motor, across the robot.
-    plate_mm
-        Thickness of the body plates.
-    tray_width_mm
-        Least width that the electronics need between the plates.
-    roller_screw_mm
-        Length of the roller's screw below its head, which lies on the roller; its end moves past the right plate.
-    right_mm
-        By how much the right plate stands further out than it must.
+    - `leg_mm`, `lug_mm`: Thickness of legs and of the foot's lugs beside them.
+    - `roller_width_mm`, `spring_length_mm`: Width of the roller bearing, and length of one spring's loaded coil.
+    - `gear_widths_mm`: Face widths of the gear planes, the cam gear's first, the motor pinion's last.
+    - `motor`: The gear motor, across the robot.
+    - `plate_mm`: Thickness of the body plates.
+    - `tray_width_mm`: Least width that the electronics need between the plates.
+    - `roller_screw_mm`: Length of the roller's screw below its head, which lies on the roller; its end moves past the
+      right plate.
+    - `right_mm`: By how much the right plate stands further out than it must.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)
@@ -110,16 +86,7 @@ def lateral_stack(
     right = min(body[0] - TERMINALS_MM, beside_leg, left - tray_width_mm) - right_mm
     lug = (half + GAP_MM, half + GAP_MM + lug_mm)
     return Lateral(
-        leg=(-half, half),
-        lug_left=lug,
-        lug_right=(-lug[1], -lug[0]),
-        cam=cam,
-        roller_screw=screw,
-        gears=tuple(gears),
-        motor=body,
-        motor_cap=cap,
-        left_plate=(left, left + plate_mm),
-        right_plate=(right - plate_mm, right),
-        spring_left=spring_left,
-        spring_right=spring_right,
-    )
+        leg=(-half, half), lug_left=lug, lug_right=(-lug[1], -lug[0]), cam=cam, roller_screw=screw, gears=tuple(gears),
+        motor=body, motor_cap=cap, left_plate=(left, left + plate_mm), right_plate=(right - plate_mm, right),
+        spring_left=spring_left, spring_right=spring_right,
+    )  # fmt: skip

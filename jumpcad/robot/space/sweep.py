@@ -7,10 +7,12 @@ import math
 
 import numpy as np
 
-from jumpcad.dimensions import TOE_TIP_WIDTH_MM
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM, TOE_TIP_WIDTH_MM
+from jumpcad.drive import Drive
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
 from jumpcad.robot.sizing import Sections
-from jumpcad.robot.space.room import EVERYWHERE, Obstacle, bar
+from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.room import EVERYWHERE, Obstacle, bar, disc
 from jumpcad.transforms import Array, direction
 
 POSITIONS = 15
@@ -24,28 +26,17 @@ ALONG = 41
 
 
 def link_obstacles(
-    linkage: Linkage,
-    sections: Sections,
-    lever_mm: float,
-    lever_start_rad: float,
-    lever_y: tuple[float, float],
-    gap_mm: float,
-    reach_rad: float,
-) -> list[Obstacle]:
+    linkage: Linkage, sections: Sections, lever_mm: float, lever_start_rad: float, lever_y: tuple[float, float],
+    gap_mm: float, reach_rad: float,
+) -> list[Obstacle]:  # fmt: skip
     """Return the room that main leg, lever, front link and foot sweep.
 
-    Parameters
-    ----------
-    linkage, sections
-        The mechanism and its dimensions.
-    lever_mm, lever_start_rad
-        Length of the lever and its direction at rest, counter-clockwise from the body's x axis.
-    lever_y
-        Interval of y that the lever occupies with its roller, screw and nut.
-    gap_mm
-        Added all around.
-    reach_rad
-        How far past rest the links go.
+    - `linkage`, `sections`: The mechanism and its dimensions.
+    - `lever_mm`, `lever_start_rad`: Length of the lever and its direction at rest, counter-clockwise from the body's x
+      axis.
+    - `lever_y`: Interval of y that the lever occupies with its roller, screw and nut.
+    - `gap_mm`: Added all around.
+    - `reach_rad`: How far past rest the links go.
     """
     travel = np.linspace(linkage.travel_rad[0], reach_rad, POSITIONS)
     pose = linkage.pose(travel)
@@ -99,3 +90,42 @@ def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array
         points.append(bar(start, end, FOOT_SPACING_MM))
         radii.append(np.tile(np.linspace(root, tip, len(points[-1]) // len(start)) / 2.0 + gap_mm, len(start)))
     return Obstacle("foot", np.concatenate(points), np.concatenate(radii), EVERYWHERE)
+
+
+LEVER_HEAD_MM = 1.7
+"""Left of the roller: the screw's head, 1.65 mm (ISO 7380-1 M3), rounded up."""
+
+
+def swept_obstacles(
+    linkage: Linkage, sections: Sections, drive: Drive, lateral: Lateral, reach_rad: float, gap_mm: float = CLEAR_MM
+) -> list[Obstacle]:
+    """Return the room that the links sweep, with a clearance."""
+    lever_y = (lateral.roller_screw[0], lateral.roller_screw[1] + LEVER_HEAD_MM)
+    cam = drive.cam
+    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
+
+
+def hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:
+    """Return both springs, with a gap all around, and the axle that they are on."""
+    coil = drive.spring.outer_diameter_mm / 2.0 + gap_mm
+    return [
+        disc("left spring", hub, coil, lateral.spring_left),
+        disc("right spring", hub, coil, lateral.spring_right),
+        axle_obstacle("leg axle", hub, lateral),
+    ]
+
+
+def cam_obstacles(axis: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
+    """Return cam, cam gear, the dog between them and their axle."""
+    wheel = drive.train.stages[-1].wheel
+    return [
+        disc("cam", axis, drive.cam.outer_radius_mm + CLEAR_MM, lateral.cam),
+        disc("cam's dog", axis, drive.dog.outer_mm / 2.0 + CLEAR_MM, (lateral.cam[1], lateral.gears[0][0])),
+        disc("cam gear", axis, wheel.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
+        axle_obstacle("cam axle", axis, lateral),
+    ]
+
+
+def axle_obstacle(name: str, place: Array, lateral: Lateral) -> Obstacle:
+    """Return an axle with its spacers, from plate to plate."""
+    return disc(name, place, SPACER_RADIUS_MM + CLEAR_MM, lateral.inside)

@@ -8,19 +8,12 @@ from typing import Literal
 
 import numpy as np
 
-from jumpcad.dimensions import (
-    CLEAR_MM,
-    GAP_MM,
-    SPRING_BOSS_MIN_MM,
-    SPRING_BOSS_MM,
-    SPRING_BOSS_WALL_MM,
-)
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPRING_BOSS_MIN_MM, SPRING_BOSS_MM, SPRING_BOSS_WALL_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher, lower
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import around, best_place
-from jumpcad.robot.space.room import Obstacle, bar, clearance, disc
+from jumpcad.robot.space.room import Obstacle, around, bar, best_place, clearance, disc
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

@@ -44,22 +44,13 @@ NEAREST_MM, FARTHEST_MM, WANTED_MM, STEP_MM = 9.0, 24.0, 18.0, 0.25
 class StopPlace:
     """Where the stop is, in the body frame's x-z plane (mm).
 
-    Attributes
-    ----------
-    angle_rad
-        Of the leg past rest when its heel touches the pad.
-    direction_rad
-        Direction of the leg then, below the x axis: the pad's face is parallel to it.
-    radius_mm, heel_mm
-        From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
-    face_mm
-        Middle (2,) of the pad's free face.
-    depth_mm
-        Of the bar, in the direction of the impact.
-    pad
-        The pad that is glued on.
-    room_mm
-        How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
+    - `angle_rad`: Of the leg past rest when its heel touches the pad.
+    - `direction_rad`: Direction of the leg then, below the x axis: the pad's face is parallel to it.
+    - `radius_mm`, `heel_mm`: From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
+    - `face_mm`: Middle (2,) of the pad's free face.
+    - `depth_mm`: Of the bar, in the direction of the impact.
+    - `pad`: The pad that is glued on.
+    - `room_mm`: How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 
     angle_rad: float
@@ -152,15 +143,9 @@ def _missing(linkage: Linkage, sections: Sections, reach_rad: float, gap_mm: flo
 
 
 def stop_place(
-    obstacles: list[Obstacle],
-    linkage: Linkage,
-    sections: Sections,
-    angle_rad: float,
-    pad: Pad,
-    inside: Interval,
-    plate: Interval,
-    reserve_mm: float = 0.0,
-) -> StopPlace:
+    obstacles: list[Obstacle], linkage: Linkage, sections: Sections, angle_rad: float, pad: Pad, inside: Interval,
+    plate: Interval, reserve_mm: float = 0.0,
+) -> StopPlace:  # fmt: skip
     """Return the place of the stop behind the leg, across both plates: the free one nearest to the wanted radius.
 
     It has `reserve_mm` more than the usual clearances around it.
@@ -190,15 +175,9 @@ def stop_place(
         )  # fmt: skip
     best = int(np.argmax(room >= 0.0))
     return StopPlace(
-        angle_rad,
-        below,
-        float(radii[best]),
-        heel,
-        np.round(faces[best], 6),
-        sections.stop_mm,
-        pad,
+        angle_rad, below, float(radii[best]), heel, np.round(faces[best], 6), sections.stop_mm, pad,
         min(float(room.max()), KNOWN_MM),
-    )
+    )  # fmt: skip
 
 
 def stop_obstacles(stop: StopPlace, inside: Interval) -> Iterable[Obstacle]:

@@ -6,19 +6,13 @@ In-plane places are in the body frame's x-z plane.
 import numpy as np
 
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import (
-    CAP_EAR_MM,
-    CLEAR_MM,
-    GAP_MM,
-    SPACER_RADIUS_MM,
-)
+from jumpcad.dimensions import CAP_EAR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
-from jumpcad.drive.socket import socket_half_mm
+from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.places import best_place, ring_candidates
-from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, disc, shortfall
+from jumpcad.robot.space.room import Obstacle, best_place, box_obstacle, clearance, disc, ring_candidates, shortfall
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

@@ -1,15 +1,124 @@
-"""Its doors."""
+"""The gear motor and its cap's screws, and the drive's limits: of synthesis, release, dog, blocked motor (mm, MPa)."""
 
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+
+from jumpcad.drive import cam_findings, release, spring, spring_choice
+from jumpcad.drive import train as gear_train
+from jumpcad.findings import Basis, Finding, Severity, at_most, lower
+from jumpcad.mechanism.model import BODY
+from jumpcad.parts.purchased import BoughtPart, bought, box_outline, placed_screw
+from jumpcad.robot.layout import Layout
+from jumpcad.robot.load_case import INTERLAYER, load_case, stress_finding
+from jumpcad.robot.robot import Robot
 from jumpcad.robot.thing import Check, Thing
-from jumpcad.robot.train import limits
-from jumpcad.robot.train.bought import motor
-from jumpcad.robot.train.drawing import train
+from jumpcad.robot.train.drawing import gear_turns, train
+from jumpcad.robot.train.motor_socket import ear_places
+from jumpcad.solids.outline import Region, disc, rectangle
+from jumpcad.workshop import Workshop
 
-TRAIN = Thing(
-    train,
-    motor,
-    (
-        Check(limits.drive_findings, limits.BASIS),
-        Check(limits.blocked_findings, limits.BLOCKED_BASIS),
+ROUND_OFF = 1e-6
+BASIS = {
+    "cam_dog_strength": Basis(
+        f"max(√(σ² + 3·τ²) of a jaw, √3·16·T·D/(π·(D⁴ - d⁴)) of its boss) ≤ the gears' {INTERLAYER}; T larger of "
+        "the cam's torque and the blow at the end of the dog's play; σ = 3·F·L/(b·h²), τ = 1.5·F/(b·h), F = "
+        "T/(2·mean radius)",
+        "bending, transverse shear, torsion: Shigley 3-10 to 3-12; blow: jumpcad/drive/dog.py",
     ),
-)
+    **spring.BASIS,
+    **cam_findings.BASIS,
+    **gear_train.BASIS,
+    **release.BASIS,
+    **spring_choice.BASIS,
+}
+
+
+def drive_findings(robot: Robot) -> list[Finding]:
+    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*`, `motor_*`, `release_*` by what they limit."""
+    return [*(_judged(found) for found in (*robot.layout.drive.findings, *robot.release.findings)), _dog(robot)]
+
+
+def _dog(robot: Robot) -> Finding:
+    """Return the finding of the cam's dog, loaded and at the impact."""
+    case, gears = load_case(robot), robot.workshop.material("gears")
+    stress = case.dog_stress_mpa(max(robot.layout.drive.cam.peak_torque_nm, robot.release.blow_nm))
+    allowable = gears.strength_interlayer_mpa / robot.workshop.safety.printed_factor
+    ways = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the gears")
+    return stress_finding(
+        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, ways, "dog"
+    )
+
+
+def _judged(found: Finding) -> Finding:
+    """Return a finding with its severity; the cam's search ends on its limits, within about 1e-9."""
+    failed: Severity = "warning" if found.severity == "warning" else "error"  # of what wears
+    margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
+    return replace(found, margin=margin, severity="info" if margin >= 0.0 else failed)
+
+
+BLOCKED_FACTOR = 1.5
+"""Factor of safety of printed parts; judgement: less than for every jump, since a motor is blocked by a fault alone."""
+TORQUE = "T stall torque on a full battery under the firmware's PWM times the ratio, without losses"
+WEAKER = "a weaker motor, a battery of fewer cells, or a stronger material for the gears"
+BLOCKED_BASIS = {
+    "gear_blocked": Basis(
+        f"largest F/(b·m·Y) of the pairs ≤ the gears' strength_in_plane_mpa/{BLOCKED_FACTOR:g} (MPa); {TORQUE} up to "
+        "the pair, others as of `gear_strength_*`",
+        "Lewis (Shigley 14-1); factor: judgement",
+    ),
+    "cam_dog_blocked": Basis(
+        f"stress as of `cam_dog_strength` ≤ the gears' strength_interlayer_mpa/{BLOCKED_FACTOR:g} (MPa); {TORQUE}",
+        "Shigley 3-10 to 3-12; factor: judgement",
+    ),
+}
+
+
+def blocked_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `gear_blocked` and `cam_dog_blocked`."""
+    case, gears_used = load_case(robot), robot.layout.drive.train
+    supply, allowed = robot.supply, robot.workshop.safety.motor_torque_max_nm
+    torque = supply.driven(gears_used.motor, supply.full_v, allowed).stall_torque_nm
+    gears, worst = robot.workshop.material("gears"), 0.0
+    for pair in gears_used.stages:
+        worst = max(worst, pair.pinion.lewis_stress_mpa(torque))
+        torque *= pair.ratio
+    dog = case.dog_stress_mpa(torque)
+    for name, what, stress, strength in (
+        ("gear_blocked", "teeth of the gears", worst, gears.strength_in_plane_mpa),
+        ("cam_dog_blocked", "the cam's dog", dog, gears.strength_interlayer_mpa),
+    ):
+        allowed = strength / BLOCKED_FACTOR
+        message = f"{what}, motor blocked: {stress:.1f} of {allowed:.1f} MPa"
+        yield at_most(name, stress, allowed, "MPa", message, WEAKER, "warning")
+
+
+CAP_SCREW_MM = 8.0
+"""Length of the M2 screws that hold the motor's cap on the ears of its socket, a stock length; judgement: more thread
+in plastic than twice their diameter, through a cap of 2.4 mm."""
+
+
+def motor(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+    """Yield the gear motor and the screws of its cap; the shaft is turned to fit the pinion."""
+    motor, (x, z), catalogue = layout.drive.train.motor, layout.motor_mm, workshop.catalogue
+    low, front = layout.lateral.motor
+    shaft_mass = catalogue.rod_mass_g(motor.shaft_mm, motor.shaft_length_mm)
+    body = [(0.0, front - low, box_outline(motor.width_mm, motor.height_mm))]
+    shaft = [(0.0, motor.shaft_length_mm, _d_shaft(motor.shaft_mm, motor.shaft_flat_mm))]
+    article, turn = f"gear motor {motor.name}", gear_turns(layout)["motor_pinion"]
+    article += f" ({motor.article})" if motor.article else ""
+    yield bought("motor", article, BODY, motor.mass_g - shaft_mass, body, (x, low, z), layout.motor_angle_rad)
+    yield bought("motor_shaft", article, BODY, shaft_mass, shaft, (x, front, z), turn, units=0)
+    screw = catalogue.screws["M2"]
+    for number, ear in enumerate(ear_places(layout), start=1):
+        top = layout.lateral.motor_cap[1] - screw.button_head_height_mm
+        yield placed_screw(f"cap_screw_{number}", BODY, ear, (top - CAP_SCREW_MM, top), 1.0, screw, catalogue)
+
+
+@lru_cache(maxsize=64)
+def _d_shaft(diameter_mm: float, across_flat_mm: float) -> Region:
+    flat = rectangle((diameter_mm, 2.0 * diameter_mm)).translate((across_flat_mm, 0.0))
+    return disc(diameter_mm) - flat
+
+
+TRAIN = Thing(train, motor, (Check(drive_findings, BASIS), Check(blocked_findings, BLOCKED_BASIS)))

@@ -17,7 +17,7 @@ import numpy as np
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM
-from jumpcad.drive.stock_spring import springs_on_leg
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Complex

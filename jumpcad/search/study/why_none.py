@@ -8,7 +8,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from jumpcad.building.growth import built_and_checked
 from jumpcad.design import PRINTED_BOUNDS, SEARCH_BOUNDS
 from jumpcad.dimensions import counted
-from jumpcad.drive.stock_spring import SPRING, STIFFNESS
+from jumpcad.drive.spring_choice import SPRING, STIFFNESS
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Change, Finding, Remedy, errors, in_words
 from jumpcad.search.models import PrintedModel, RobotModel

@@ -10,7 +10,7 @@ from support.each import each
 import jumpcad
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, quick_findings
-from jumpcad.checks.righting import righting_findings
+from jumpcad.checks.springs_loaded import righting_findings
 from jumpcad.findings import Finding
 from jumpcad.remedies import Remedies
 from jumpcad.robot.cage.strength import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns

@@ -13,8 +13,7 @@ from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.facts import cage_facts
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.collision.hulls import quick_corners_mm
-from jumpcad.collision.stable_poses import least_share_on_feet, share_on_feet
+from jumpcad.collision.hulls import least_share_on_feet, quick_corners_mm, share_on_feet
 from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.sdf import write_sdf

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from manifold3d import CrossSection
-from support.built import cut, hole_centres, placed, region
+from support.built import built, cut, geared, hole_centres, placed, region
 
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.electronics.fittings import fitting_openings, fitting_pads, wire_hole_mm
@@ -78,3 +78,19 @@ def test_leads_pass_inside_the_plates_room_for_them(kenan: Robot, side: str) -> 
     lost = room.difference(region(segments))
     assert 10.0 < lost.area < 60.0
     assert room.buffer(-0.5).contains(lost.buffer(-0.3))
+
+
+@pytest.fixture(scope="module", params=[lambda: built("kenan-2.0"), lambda: built("best-bo"), geared])
+def robot(request: pytest.FixtureRequest) -> Robot:
+    return request.param()
+
+
+def test_the_usb_plug_is_before_the_controllers_socket(robot: Robot) -> None:
+    """Its opening's middle: the board's socket above the foam tape on the upper tray."""
+    layout, electronics = robot.layout, robot.layout.electronics
+    seat = electronics.seats(layout.lateral.inside)["controller"]
+    board = electronics.controller
+    up = electronics.upper_tray_mm + 1.6 + 1.0 + board.usb_height_mm
+    if layout.fittings.usb_mm is not None:
+        assert layout.fittings.usb_mm == pytest.approx(layout.tray_mm + np.array([seat.x_mm, up]), abs=1e-6)
+        assert layout.fittings.usb_size_mm == board.usb_mm

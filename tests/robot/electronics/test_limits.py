@@ -16,8 +16,7 @@ from support.said import well_told
 from jumpcad.building import build
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.design import load_design
-from jumpcad.electronics.chain import Link
-from jumpcad.electronics.chosen import chosen_parts
+from jumpcad.electronics.supply import Link, chosen_parts
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding
 from jumpcad.robot.electronics import limits as leads

@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from jumpcad.catalogue import load_catalogue
-from jumpcad.electronics.chosen import Chosen, chosen_of
 from jumpcad.electronics.nets import wiring_of
+from jumpcad.electronics.supply import Chosen, chosen_of
 from jumpcad.findings import Finding
 from jumpcad.robot.electronics.wiring import BASIS, wiring_findings
 

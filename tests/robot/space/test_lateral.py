@@ -13,11 +13,7 @@ MOTOR = load_catalogue().motors["n20-298"]
 
 
 def stack(
-    spring: float = 5.0,
-    gears: tuple[float, ...] = (5.0,),
-    tray: float = 20.0,
-    motor: float = 24.0,
-    screw: float = 16.0,
+    spring: float = 5.0, gears: tuple[float, ...] = (5.0,), tray: float = 20.0, motor: float = 24.0, screw: float = 16.0
 ) -> Lateral:
     """Return the stack of an 8 mm leg with a 623 bearing (4 mm wide) for a roller and plates of 2.4 mm."""
     lying = MOTOR.model_copy(update={"body_length_mm": motor})

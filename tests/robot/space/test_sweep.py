@@ -10,7 +10,7 @@ from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle
-from jumpcad.robot.space.sweep import legs_apart_mm, link_obstacles
+from jumpcad.robot.space.sweep import LEVER_HEAD_MM, legs_apart_mm, link_obstacles, swept_obstacles
 
 NAMES = ["kenan-2.0", "best-bo", LONG_TOES]
 POSITIONS = 60
@@ -18,6 +18,8 @@ PAST_RAD = np.radians(6.0)
 """How far past rest the links sweep."""
 BETWEEN_MM = {"main leg": 0.5, "lever": 0.5, "front link": 0.8, "foot": 1.7}
 """How deep the outline of a bar drawn at thirteen positions is notched between two of them."""
+SCREW_HEAD_MM = 1.65
+"""Height of the head of an M3 screw (ISO 7380-1)."""
 
 
 def swept(robot: Robot, gap_mm: float = 0.0) -> dict[str, Obstacle]:
@@ -124,3 +126,13 @@ def test_the_foots_toes_and_rails_are_in_its_sweep_and_no_more(name: str) -> Non
             found = np.hypot(*(foot.points_mm - place).T).argmin()
             assert foot.points_mm[found] == pytest.approx(place, abs=0.3)
             assert foot.radius_mm[found] == pytest.approx(height / 2.0)
+
+
+def test_the_lever_takes_its_screw_with_the_head_to_the_left(kenan: Robot) -> None:
+    """Its interval of y is that of the screw, and a head's height more towards the left, which is up along y."""
+    layout = kenan.layout
+    found = swept_obstacles(layout.linkage, layout.sections, layout.drive, layout.lateral, 0.1)
+    (right, left), screw = {one.name: one.y_mm for one in found}["lever"], layout.lateral.roller_screw
+    assert right == screw[0]
+    assert SCREW_HEAD_MM <= left - screw[1] < SCREW_HEAD_MM + 0.1
+    assert left - screw[1] == pytest.approx(LEVER_HEAD_MM)

@@ -11,7 +11,7 @@ from support.robots import FOLDED
 
 from jumpcad import evaluation
 from jumpcad.building import build
-from jumpcad.building.refusal import statics_refusal
+from jumpcad.building.growth import statics_refusal
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors

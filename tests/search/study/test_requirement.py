@@ -8,7 +8,7 @@ from support.built import built
 from support.studies import IDENTITY
 
 import jumpcad
-from jumpcad.collision.stable_poses import share_on_feet
+from jumpcad.collision.hulls import share_on_feet
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES

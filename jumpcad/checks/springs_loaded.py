@@ -1,8 +1,12 @@
-"""Clearance of the body above the foot, springs loaded (mm)."""
+"""With springs loaded: clearance of the body above the foot (mm), and does a robot with a cage roll onto its feet?"""
+
+from collections.abc import Iterator
 
 from jumpcad.checks.interference import Position, box_of, pieces_of, pose_of
-from jumpcad.findings import Basis, Finding, higher, limit, lower
+from jumpcad.collision.hulls import least_share_on_feet
+from jumpcad.findings import Basis, Finding, at_least, higher, limit, lower
 from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot
 from jumpcad.transforms import Array
 
@@ -14,7 +18,7 @@ BASIS = {
     "foot_clearance": Basis(
         f"least distance of the foot from what the body carries, springs loaded ≥ {FOOT_GAP_MM:g} mm",
         f"solids, exact; {FOOT_GAP_MM:g} mm: judgement, as for the ground",
-    ),
+    )
 }
 
 
@@ -49,3 +53,28 @@ def foot_findings(robot: Robot) -> list[Finding]:
 def _near(a: Array, b: Array) -> bool:
     """Whether two boxes (2, 3) may be nearer to each other than is searched."""
     return bool((a[0] < b[1] + SEARCH_MM).all() and (b[0] < a[1] + SEARCH_MM).all())
+
+
+RIGHTED = 90.0
+"""Least percentage of stable poses on its feet, wherever the centre of mass is within its shifts. Judgement: robots
+above it rose from every drop in simulation."""
+CROUCH = (*higher("compression_ratio", note="it crouches lower"), "take the sizes that jumpcad cage DESIGN finds")
+RIGHTING_BASIS = {
+    "cage_rights": Basis(
+        f"least share of stable poses on the feet ≥ {RIGHTED:g} %, springs loaded, the centre of mass as computed and "
+        "moved by 3 mm up, 4 mm along, 2 mm across",
+        "Goldberg et al., Part pose statistics (1999); limit: judgement",
+    )
+}
+
+
+def righting_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `cage_rights`, a warning; nothing without a cage."""
+    if robot.layout.of(Cage) is None:
+        return
+    share = 100.0 * least_share_on_feet(robot)
+    yield at_least(
+        "cage_rights", share, RIGHTED, "%",
+        f"from {share:.1f} % of all attitudes it rolls onto its feet while it winds, the worst centre of mass assumed; "
+        f"{RIGHTED:g} % are needed", CROUCH, "warning",
+    )  # fmt: skip

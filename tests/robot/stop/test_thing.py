@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-from support.built import built, placed
+from support.built import built, cut, part, placed, region
 from support.workshops import workshop_with
 
 from jumpcad.building import build
@@ -19,7 +19,7 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.findings import Finding, errors
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.stop.limits import stop_findings
+from jumpcad.robot.stop.thing import stop_findings
 from jumpcad.scene.visuals import visuals
 from jumpcad.workshop import Workshop
 
@@ -216,3 +216,23 @@ def test_without_ground_all_of_the_springs_energy_meets_the_stop() -> None:
     assert told.margin < 0.0
     once = robot.stop_blow
     assert told.value + told.margin <= once.energy_j * (0.5 * robot.layout.stop.pad.thickness_mm / once.give_mm) ** 2
+
+
+def test_tabs_stand_in_the_plates_slots(robot: Robot) -> None:
+    """Pressed in: 0.1 mm on every side of the section."""
+    for side, plate in (("left", robot.layout.lateral.left_plate), ("right", robot.layout.lateral.right_plate)):
+        y = sum(plate) / 2.0
+        tab, around = (region(cut(placed(robot, name), y)) for name in ("stop_bar", f"body_plate_{side}"))
+        assert tab.intersection(around).area < 1e-3
+        assert tab.buffer(robot.workshop.fits.press_mm + 0.01, join_style="mitre").intersection(around).length > 17.9
+
+
+def test_the_pad_lies_in_its_seat_before_the_bar(robot: Robot) -> None:
+    """Glued to the seat's floor, 0.02 mm before it, it stands out towards the leg by its thickness less 0.6 mm."""
+    bar = part(robot, "stop_bar")
+    item = next(one for one in robot.hardware if one.name == "stop_pad")
+    pad = item.shown_mesh.copy().apply_transform(np.linalg.inv(bar.placements[0].T_body_part) @ item.T_body_part)
+    thick = robot.layout.stop.pad.thickness_mm
+    assert pad.bounds[:, 1] == pytest.approx([-0.6, thick - 0.6], abs=2e-3)
+    assert pad.bounds[:, 2] == pytest.approx([0.0, 8.0], abs=2e-3)
+    assert (pad.bounds[0, 0] + pad.bounds[1, 0]) / 2.0 == pytest.approx(0.0, abs=1e-3)

@@ -15,8 +15,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.stop.limits import stop_findings
-from jumpcad.robot.train.limits import blocked_findings
+from jumpcad.robot.stop.thing import stop_findings
+from jumpcad.robot.train.thing import blocked_findings
 from jumpcad.workshop.workshop import Role
 
 OF_ROLES = {

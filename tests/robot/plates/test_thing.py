@@ -1,4 +1,4 @@
-"""Body plates, measured on their meshes: bores, the motor's seat, and a name where there is material for all of it."""
+"""A name with letters that cannot be engraved is a warning that shows them."""
 
 from dataclasses import replace
 
@@ -8,13 +8,25 @@ import shapely
 from support.built import built, cut, placed, region
 from support.fits import LOOSE, N20_SHAFT, RUNNING, TOLERANCE_MM, measured
 
-from jumpcad.drive.socket import window_mm
+from jumpcad.drive.motor import window_mm
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Face
-from jumpcad.robot.plates.drawing import _openings, plates
 from jumpcad.robot.plates.outline import pin_hole
+from jumpcad.robot.plates.thing import _openings, engraving_findings, plates
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc
+
+
+@pytest.mark.parametrize(("name", "lacking"), [("Käfer-机器人", "机器人"), ("🐸\t", "🐸\t"), ("人人", "人")])
+def test_letters_that_the_font_lacks_are_said(kenan: Robot, name: str, lacking: str) -> None:
+    """The engraving's font has Latin letters, but neither Chinese nor emoji nor control characters."""
+    [finding] = engraving_findings(replace(kenan, name=name))
+    assert (finding.severity, finding.margin) == ("warning", -len(lacking))
+    assert repr(lacking) in finding.message
+
+
+def test_greek_and_cyrillic_can_be_engraved(kenan: Robot) -> None:
+    assert engraving_findings(replace(kenan, name="Жук αβ")) == []
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -8,7 +8,7 @@ import pytest
 from support.built import built
 
 from jumpcad.drive import TorsionSpring
-from jumpcad.robot.springs.wire import coil_with_arm, leg_arm_wire
+from jumpcad.robot.springs.thing import coil_with_arm, leg_arm_wire
 
 HUB, ENDS = np.array([-40.0, 3.0]), (16.0, 6.0)
 

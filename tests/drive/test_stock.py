@@ -15,7 +15,7 @@ from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
 from jumpcad.drive.spring import TorsionSpring
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM
-from jumpcad.drive.stock_spring import fitted_spring, springs_on_leg
+from jumpcad.drive.spring_choice import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors
 from jumpcad.robot.robot import Robot

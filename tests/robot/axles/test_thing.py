@@ -14,11 +14,7 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 
-CHOICES = {
-    "plates": {},
-    "clips": {"retention": "clips", "axle": "silver-steel"},
-    "nuts": {"retention": "nuts"},
-}
+CHOICES = {"plates": {}, "clips": {"retention": "clips", "axle": "silver-steel"}, "nuts": {"retention": "nuts"}}
 
 
 def workshop(**bought: object) -> Workshop:

@@ -9,12 +9,11 @@ from support.each import each
 from support.said import well_told
 from support.strengths import changed
 
-from jumpcad.electronics.chosen import chosen_parts
-from jumpcad.electronics.supply import supply_of
+from jumpcad.electronics.supply import chosen_parts, supply_of
 from jumpcad.findings import errors
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.train.limits import BLOCKED_FACTOR, blocked_findings, drive_findings
+from jumpcad.robot.train.thing import BLOCKED_FACTOR, blocked_findings, drive_findings
 
 
 def test_a_margin_that_is_not_a_number_is_an_error(kenan: Robot) -> None:
