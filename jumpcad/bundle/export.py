@@ -109,17 +109,24 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     return files.items()
 
 
-def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
-    """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
-    return _page(robot, headline(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
+def report_page(
+    robot: Robot, files: Iterable[str] = (), series: Series | None = None, steps: Iterable[str] = ()
+) -> str:
+    """Return report.html alone, with links to `files` relative to it.
+
+    It shows recorded jumps in a row, and what the next `steps` of the design are worth, if given.
+    """
+    seen, sure = renders(robot), uncertainty_of(robot)
+    return _page(robot, headline(robot, True), seen, write_glb(robot), files, sure, series, steps)
 
 
 def _page(
     robot: Robot, jump: Jump, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str],
-    sure: Uncertainty | None, series: Series | None = None,
+    sure: Uncertainty | None, series: Series | None = None, steps: Iterable[str] = (),
 ) -> str:  # fmt: skip
     pictures = {name: seen[name] for name in RENDERS if name in seen}
-    return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)
+    known = sure if jump.verdict == "jump" else None
+    return write_report(robot, pictures, jump, glb, tuple(files), known, series, tuple(steps))
 
 
 def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:

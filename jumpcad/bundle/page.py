@@ -5,7 +5,7 @@ Its text and HTML, which is well-formed XML too, are in `templates/report`. The 
 
 import base64
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from typing import Annotated, Any, Literal
 from urllib.parse import quote
@@ -65,7 +65,7 @@ def compared_of(design: Design) -> Compared | None:
 
 def write_report(
     robot: Robot, pictures: Mapping[str, bytes], jump: Jump, glb: bytes | None = None, files: Iterable[str] = (),
-    sure: Uncertainty | None = None, series: Series | None = None,
+    sure: Uncertainty | None = None, series: Series | None = None, steps: Sequence[str] = (),
 ) -> str:  # fmt: skip
     """Return the page.
 
@@ -83,12 +83,15 @@ def write_report(
         How sure range and rise are.
     series
         Recorded jumps in a row, to be shown instead of the one jump.
+    steps
+        What more of each of the tightest limits is worth, a line each.
     """
     values = {
         "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(), "sure": sure,
         "sure_figures": FIGURES, "beside": compared_of(robot.design),
         "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
         "viewer": None if glb is None else viewer_values(robot, jump, glb, series), "series": series,
+        "steps": steps,
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"), "version": __version__,
     }  # fmt: skip
     values |= robot_values(robot) | file_values(files) | limit_values(with_verdict(limits_of(robot), jump))

@@ -27,6 +27,9 @@ COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
+NextFlag = Annotated[
+    bool, typer.Option("--next", help="Say what each limit costs in range, and a gram of the body: seconds of work.")
+]
 
 
 def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
@@ -95,10 +98,7 @@ def check(
     explain: Annotated[
         str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
     ] = "",
-    what_next: Annotated[
-        bool,
-        typer.Option("--next", help="Say what each limit costs in range, and a gram of the body: seconds of work."),
-    ] = False,
+    what_next: NextFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Check the robot of a design: its jump, printing, strength, drive, clearances.

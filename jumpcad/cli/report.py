@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.check import warn_of_no_jump
+from jumpcad.cli.check import NextFlag, warn_of_no_jump
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table
 from jumpcad.cli.subjects import (
     RowOption,
@@ -35,16 +35,17 @@ def report(
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,
+    what_next: NextFlag = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
     if subject.endswith(STUDY) and not os.path.isdir(subject):
-        if row:
-            raise JumpcadError(f"--jumps {row}: {subject} is a study, which does not jump; leave it out")
+        for given in ([f"--jumps {row}"] if row else []) + ["--next"] * what_next:
+            raise JumpcadError(f"{given}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
-        written = _robot_page(subject, output, workshop, row, force)
+        written = _robot_page(subject, output, workshop, row, what_next, force)
     if as_json:
         print_json({"file": str(written)})
     else:
@@ -67,12 +68,16 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     return page
 
 
-def _robot_page(subject: str, output: Path | None, workshop: str | None, row: int | None, force: bool) -> Path:
+def _robot_page(
+    subject: str, output: Path | None, workshop: str | None, row: int | None, what_next: bool, force: bool
+) -> Path:
     """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
+    from jumpcad.bundle.limits import limits_of
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
     from jumpcad.landing.series import jumps
+    from jumpcad.remedies import next_steps, steps_in_words
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
@@ -86,7 +91,8 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, row: in
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         series = jumps(robot, row, record=True) if row else None
-        text = report_page(robot, bundle.files if bundle else (), series)
+        steps = steps_in_words(*next_steps(robot, limits_of(robot))) if what_next else ()
+        text = report_page(robot, bundle.files if bundle else (), series, steps)
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:

@@ -21,6 +21,9 @@ def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, b
     assert (code, out.strip()) == (0, str(copy / "report.html"))
     assert 'id="viewer-glb"' in (copy / "report.html").read_text()  # built without pictures it had none
     assert run("verify", copy)[0] == 0
+    asked = run("check", "kenan-2.0", "--next", "--json")[1]
+    assert run("report", copy, "--next")[0] == 0
+    assert json.loads(asked)["next"][0]["limit"] in (copy / "report.html").read_text().partition("next step")[2]
 
 
 def test_an_edited_page_of_a_bundle_is_not_replaced(
