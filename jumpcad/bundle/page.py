@@ -67,22 +67,10 @@ def write_report(
     robot: Robot, pictures: Mapping[str, bytes], jump: Jump, glb: bytes | None = None, files: Iterable[str] = (),
     sure: Uncertainty | None = None, series: Series | None = None,
 ) -> str:  # fmt: skip
-    """Return the page.
+    """Return the page; the jump has its trajectory if the page shows the motion.
 
-    Parameters
-    ----------
-    robot, jump
-        The robot and its jump, with its trajectory if the page shows the motion.
-    pictures
-        PNG files by title; they become part of the page.
-    glb
-        The robot's GLB file; without it there is no 3-D view.
-    files
-        Paths in the bundle that the page links to.
-    sure
-        How sure range and rise are.
-    series
-        Recorded jumps in a row, to be shown instead of the one jump.
+    PNG files by title become part of the page. Without the robot's GLB file there is no 3-D view. `files` are paths in
+    the bundle to which it links; recorded jumps in a row are shown instead of the one jump.
     """
     values = {
         "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(), "sure": sure,

@@ -92,16 +92,9 @@ class SlicedBundle:
 def slice_bundle(
     folder: str | Path, workshop: Workshop | None = None, tell: Callable[[str], None] = lambda name: None
 ) -> SlicedBundle:
-    """Slice every part and every plate of a bundle.
+    """Slice every part and every plate of a bundle, with a workshop's print settings: by default the bundle's own.
 
-    Parameters
-    ----------
-    folder
-        The bundle.
-    workshop
-        With the print settings; by default the bundle's own.
-    tell
-        Called with the name of each part and plate before it is sliced.
+    `tell` is called with the name of each part and plate before it is sliced.
     """
     if wrong := verify(folder):
         raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; build it again with jumpcad build")

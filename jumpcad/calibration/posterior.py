@@ -106,16 +106,9 @@ class CalibrationPosterior(ByValue):
 
 @check_arguments
 def calibrate(files: Sequence[str | Path], seed: int = 0, landing: bool = False) -> CalibrationPosterior:
-    """Calibrate on the measurements of one or several robots.
+    """Calibrate on the measurements of one or several robots: templates' names or TOML files.
 
-    Parameters
-    ----------
-    files
-        Templates' names or TOML files, one a robot.
-    seed
-        Random seed of the sampler.
-    landing
-        Whether the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
+    With `landing` the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
     """
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")

@@ -84,16 +84,7 @@ def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: floa
     """Pack parts on plates, sorted by material; as many plates as it takes.
 
     Parts are turned by 90° as needed; one that is too long for that lies at another angle. What a plate has lies in the
-    middle of the bed.
-
-    Parameters
-    ----------
-    parts
-        The parts, each with the quantity that is needed.
-    bed_mm
-        Usable bed (x, y, z).
-    spacing_mm
-        Distance that parts keep from each other.
+    middle of the usable bed (x, y, z); parts keep a distance from each other.
     """
     by_material: dict[str, list[Printable]] = {}
     for part in sorted(parts, key=lambda part: part.name):

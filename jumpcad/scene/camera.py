@@ -42,10 +42,7 @@ class Camera:
     def seen(self, points_m: Array, size: tuple[int, int]) -> tuple[Array, Array]:
         """Project points (…, 3) in the world (m) onto a picture of `size`, width and height in pixels.
 
-        Returns
-        -------
-        pixels, distance_m
-            Pixels (…, 2) from the upper left corner, x to the right and y down; distance (…) along the view.
+        Return pixels (…, 2) from the upper left corner, x to the right and y down; distances (…) along the view (m).
         """
         right, up, back = np.moveaxis(turned(points_m - self.eye_m, self.axes), -1, 0)
         scale = size[1] / 2.0 / SLOPE / -back

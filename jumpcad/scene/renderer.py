@@ -68,20 +68,10 @@ class Renderer:
         self, poses: Sequence[Array | None], size: tuple[int, int], view: View, frame_m: Array,
         pale: Sequence[bool] | None = None,
     ) -> Image.Image:  # fmt: skip
-        """Return a picture.
+        """Return a picture of `size`, width and height in pixels, that contains points (n, 3) in the world (m).
 
-        Parameters
-        ----------
-        poses
-            The pose (4, 4) of every mesh in the world, translation in m; None leaves it out.
-        size
-            Width and height in pixels.
-        view
-            Direction of view.
-        frame_m
-            Points (n, 3) in the world (m) that the picture must contain.
-        pale
-            Which meshes are drawn in pale grey; by default none.
+        The pose (4, 4) of every mesh is in the world, translation in m; None leaves it out. `pale` meshes are drawn in
+        pale grey; by default none.
         """
         large = (SUPERSAMPLING * size[0], SUPERSAMPLING * size[1])
         camera = aimed(frame_m, view, size[0] / size[1])

@@ -21,23 +21,10 @@ JOINTS = [LEG, FOOT_LINK, FRONT]
 
 
 class BulletRobot:
-    """A robot as it is released.
+    """A robot as it is released, by its `number` in the client of PyBullet's module.
 
-    Parameters
-    ----------
-    bullet, client
-        The module, and the number of the client.
-    mechanism, settings
-        What is made, and how it is simulated.
-
-    Attributes
-    ----------
-    number
-        Of the robot in the client.
-    axes
-        Rotations (4, 3, 3) from the bodies' principal axes, in which Bullet keeps them, to their frames; base first.
-    joint_damping_nms_per_rad, dry_nm
-        Viscous damping of every joint, and dry friction of each link's (N·m).
+    `axes` are rotations (4, 3, 3) from the bodies' principal axes, in which Bullet keeps them, to their frames; base
+    first. Every joint has viscous damping, each link's dry friction is `dry_nm`.
     """
 
     def __init__(self, bullet: Any, client: int, mechanism: Mechanism, settings: Settings) -> None:

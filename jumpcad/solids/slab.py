@@ -23,20 +23,11 @@ NOTHING: Region = CrossSection()
 
 
 class CrossSections(NamedTuple):
-    """Cross-sections at heights (n,).
+    """Cross-sections at heights (n,): the different outlines, the number of each section, and the inset of its chamfer.
 
-    Attributes
-    ----------
-    outlines
-        The different outlines.
-    which
-        The number of each section's outline and pocket (n,): two heights have the same cross-section where it and the
-        inset are the same.
-    inset_mm
-        Insets of chamfers (n,).
-    pockets
-        The outlines that are another one less a pocket inside it, which are not among `outlines`: they are numbered
-        after these. Each is the number of the other outline and the pocket.
+    `which` (n,) numbers outline and pocket: two heights have the same cross-section where it and the inset are the
+    same. `pockets` are outlines that are another one less a pocket inside it, which are not among `outlines`: they are
+    numbered after these. Each is the number of the other outline and the pocket.
     """
 
     outlines: Sequence[Region]
