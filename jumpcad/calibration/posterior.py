@@ -69,16 +69,13 @@ class CalibrationPosterior(ByValue):
         deviation = self.z.std(axis=0)
         return [
             {
-                "key": one.key,
-                "label": one.label,
-                "prior": list(one.prior.quantiles(QUANTILES)),
-                "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(),
-                "spread": float(deviation[index]),
+                "key": one.key, "label": one.label, "prior": list(one.prior.quantiles(QUANTILES)),
+                "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(), "spread": float(deviation[index]),
                 "verdict": _verdict(float(deviation[index]), float(self.z[:, index].mean())),
                 "source": one.prior.source,
             }
             for index, one in enumerate(self.model.parameters)
-        ]
+        ]  # fmt: skip
 
     def energies(self) -> dict[str, list[float]]:
         """Return, by robot, quantiles of the springs' energy per mass over the model's: jumps determine it best."""

@@ -65,18 +65,16 @@ def robot_from_urdf(path: Path) -> Mechanism:
         links, joints = _named(root, "link", BODY_NAMES), _named(root, "joint", JOINTS)
         loop = extra.loop
         mechanism = Mechanism(
-            name=_text(root, "name"),
-            design=design,
+            name=_text(root, "name"), design=design,
             bodies={name: _body(links[name], extra.surfaces) for name in BODY_NAMES},
             joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
             loops=(Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
-            springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),),
-            foot_depth_m=extra.foot_depth_m,
+            springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
             stop=Stop(**extra.stop.model_dump()) if extra.stop else None,
             roller_off=RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
             friction=Friction(**extra.friction.model_dump()) if extra.friction else None,
             outline_m={name: points(np.array(corners)) for name, corners in extra.outline_m.items()},
-        )
+        )  # fmt: skip
         _require_mechanism(mechanism)
     return mechanism
 

@@ -186,14 +186,12 @@ class Run:
         rotations = np.concatenate([state.rotation for _, state in self._records])
         order = self.mechanism.order
         return Trajectory(
-            order,
-            np.array([time for time, _ in self._records]),
+            order, np.array([time for time, _ in self._records]),
             np.stack([self.mechanics.frame_positions_m(state) for _, state in self._records]),
             Rotation.from_matrix(rotations).as_quat().reshape(-1, len(order), 4),
-            np.array([energy.kinetic_j for energy in energies]),
-            np.array([energy.potential_j for energy in energies]),
+            np.array([energy.kinetic_j for energy in energies]), np.array([energy.potential_j for energy in energies]),
             np.array([energy.spring_j for energy in energies]),
-        )
+        )  # fmt: skip
 
     def _push_off(self) -> Takeoff | None:
         """Go on to the last contact before the robot flies; return None if it does not.
