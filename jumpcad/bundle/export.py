@@ -11,12 +11,10 @@ from typing import Any
 from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle import facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
-from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
-from jumpcad.bundle.drawings.spring_sheet import spring_sheets
+from jumpcad.bundle.drawings.spring_sheet import spring_dxfs, spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.firmware import firmware_files
-from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.bundle.guide.page import write_page
+from jumpcad.bundle.guide.markdown import write_guide, write_page
 from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.manifest import DESIGN, WORKSHOP, Bundle
 from jumpcad.bundle.motion import jump_motion

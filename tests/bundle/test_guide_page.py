@@ -6,8 +6,7 @@ from xml.etree import ElementTree as ET
 
 from support.built import built
 
-from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.bundle.guide.page import write_page
+from jumpcad.bundle.guide.markdown import write_guide, write_page
 
 PNG = b"\x89PNG\r\n\x1a\n"
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from support.built import built, with_kit
 
-from jumpcad.bundle.drawings.soldering import soldering_svg
+from jumpcad.bundle.drawings.wiring import soldering_svg
 from jumpcad.electronics.chosen import chosen_parts
 from jumpcad.electronics.nets import Wiring, wiring_of
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from jumpcad.building.bom import Bill
-from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.spring_sheet import scale_in_words
-from jumpcad.bundle.drawings.wiring import wires
+from jumpcad.bundle.drawings.wiring import soldering_svg, wires
 from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
