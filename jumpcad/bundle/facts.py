@@ -121,17 +121,14 @@ def joint_facts(robot: Robot) -> dict[str, Any]:
     layout, workshop = robot.layout, robot.workshop
     holes = HoleSizes.of(workshop, layout.hub_bearing)
     return {
-        "retention": layout.retention,
-        "axle": workshop.bought.axle,
-        "axle_mm": layout.axle_mm,
-        "pinion_rib_mm": workshop.fits.rib_mm,
-        "play_deg": round(math.degrees(play_rad(layout, holes)), ROLL_DIGITS),
+        "retention": layout.retention, "axle": workshop.bought.axle, "axle_mm": layout.axle_mm,
+        "pinion_rib_mm": workshop.fits.rib_mm, "play_deg": round(math.degrees(play_rad(layout, holes)), ROLL_DIGITS),
         "toe_half_width_mm": round(layout.toe_half_width_mm, ROLL_DIGITS),
         "roll_deg": {
             roll.state: {"stance": round(roll.stance_deg, ROLL_DIGITS), "play": round(roll.play_deg, ROLL_DIGITS)}
             for roll in rolls(robot)
         },
-    }
+    }  # fmt: skip
 
 
 def cage_facts(robot: Robot) -> dict[str, Any] | None:

@@ -78,18 +78,12 @@ def write_report(
         "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
         "viewer": None if glb is None else viewer_values(robot, jump, glb, series), "series": series,
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"), "version": __version__,
-    }  # fmt: skip
-    values |= robot_values(robot) | file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
-    return allowed(fill("report/report.html.j2", values))
-
-
-def robot_values(robot: Robot) -> dict[str, Any]:
-    """Return what the page says of printing, parts and figures."""
-    return {
         "robot": robot, "train": robot.layout.drive.train, "spring_deg": math.degrees(robot.spring.wind_rad),
         "parameters": type(robot.design).model_fields, "unit_of_key": unit_of_key, "bill": bill_of_materials(robot),
         "euros": euros,
     }  # fmt: skip
+    values |= file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
+    return allowed(fill("report/report.html.j2", values))
 
 
 def file_values(files: Iterable[str]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from jumpcad.scene.camera import Camera
-from jumpcad.solids.outline import Region, text
+from jumpcad.solids.outline import text
 from jumpcad.transforms import Array
 
 STRIPE_M = 0.1
@@ -124,12 +124,8 @@ def _spread(wanted: list[float], height: int) -> list[float]:
     return placed
 
 
-def _letters(name: str) -> Region:
-    return text(name, CAPITAL_PX)
-
-
 def _width(name: str) -> float:
-    return float(_letters(name).bounds()[2])
+    return float(text(name, CAPITAL_PX).bounds()[2])
 
 
 def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool) -> None:
@@ -137,7 +133,7 @@ def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool)
     start = x - _width(name) if left else x
     outlines = [
         FINE * np.column_stack([start + contour[:, 0], y + CAPITAL_PX / 2.0 - contour[:, 1]])
-        for contour in _letters(name).to_polygons()
+        for contour in text(name, CAPITAL_PX).to_polygons()
     ]
     # y points down: outlines run clockwise, holes counter-clockwise; holes are drawn last
     for points in sorted(outlines, key=_turn):

@@ -42,22 +42,15 @@ def soldering_svg(robot: Robot) -> str:
         y = max(y + LEG_ROW_MM, pins[ends[0][1].pin][1])
         parts.append(_part(name, ends, wiring, pins, side, count, (x + WIDE_MM / 2.0, y, bottom)))
     values = {
-        "board": board.name,
-        "x": x,
-        "y": TOP_MM,
-        "wide": WIDE_MM,
-        "high": height,
-        "width": WIDE_MM + BESIDE_MM + FREE_MM,
-        "height": bottom + TRACK_MM * (len(legs) + 2),
-        "middle": x + WIDE_MM / 2.0,
-        "towards": f"← to the {beside}" if side < 0.0 else f"to the {beside} →",
-        "body": BODY_MM,
-        "parts": parts,
+        "board": board.name, "x": x, "y": TOP_MM, "wide": WIDE_MM, "high": height,
+        "width": WIDE_MM + BESIDE_MM + FREE_MM, "height": bottom + TRACK_MM * (len(legs) + 2),
+        "middle": x + WIDE_MM / 2.0, "towards": f"← to the {beside}" if side < 0.0 else f"to the {beside} →",
+        "body": BODY_MM, "parts": parts,
         "pins": [
             {"at": at, "used": pin in used, "words": f"{pin} (underneath)" if pin in below else pin}
             for pin, at in pins.items()
         ],
-    }
+    }  # fmt: skip
     return fill("drawings/soldering.svg.j2", values)
 
 

@@ -99,17 +99,13 @@ def _has(robot: Robot) -> dict[str, Any]:
     pads = {one.name for one in printed_pads(robot.hardware, robot.workshop)}
     button = bool(layout.electronics.controller.button)
     return {
-        "retention": layout.retention,
-        "spring_boss": layout.spring_boss_mm > 0.0,
-        "toes_apart": layout.toes_apart,
-        "idler": layout.idler_mm is not None,
-        "balance_lead": "tie_balance_lead" in names,
+        "retention": layout.retention, "spring_boss": layout.spring_boss_mm > 0.0, "toes_apart": layout.toes_apart,
+        "idler": layout.idler_mm is not None, "balance_lead": "tie_balance_lead" in names,
         "nose_pads": any(name.startswith("nose_pad") for name in names),
-        "printed_sole": any(name.startswith("nose_pad") for name in pads),
-        "printed_stop": "stop_pad" in pads,
+        "printed_sole": any(name.startswith("nose_pad") for name in pads), "printed_stop": "stop_pad" in pads,
         # without a button USB stays in: where it feeds the driver too, nothing is to be read at the switch
         "read_current": "switch" in names and (button or layout.electronics.regulator is not None),
-    }
+    }  # fmt: skip
 
 
 def _springs(robot: Robot) -> dict[str, Any]:
