@@ -13,9 +13,8 @@ from jumpcad.bundle.motion import recorded_poses
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import STRIPE_M, labelled, with_floor
-from jumpcad.scene.renderer import COMPRESSION, Renderer, paletted, png_of
+from jumpcad.scene.renderer import COMPRESSION, Renderer, View, aimed, paletted, png_of
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.steps.assembly_steps import assembly_steps

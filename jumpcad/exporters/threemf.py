@@ -25,8 +25,7 @@ from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.prusaslicer import project_settings
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.scene.camera import View
-from jumpcad.scene.renderer import Renderer, png_of
+from jumpcad.scene.renderer import Renderer, View, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop

@@ -10,7 +10,7 @@ from types import MappingProxyType
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from jumpcad.scene.camera import Camera
+from jumpcad.scene.renderer import Camera
 from jumpcad.solids.outline import text
 from jumpcad.transforms import Array
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import View
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Move, Step, assembly_steps, travel
