@@ -14,6 +14,7 @@ from pydantic import Field
 
 from jumpcad.building.bom import bill_of_materials, euros
 from jumpcad.bundle.limits import limit_values, limits_of, with_verdict
+from jumpcad.bundle.renders import RENDERS
 from jumpcad.bundle.viewer import viewer_values
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import unit_of_key
@@ -69,13 +70,14 @@ def write_report(
 ) -> str:  # fmt: skip
     """Return the page; the jump has its trajectory if the page shows the motion.
 
-    PNG files by title become part of the page. Without the robot's GLB file there is no 3-D view. `files` are paths in
-    the bundle to which it links; recorded jumps in a row are shown instead of the one jump.
+    PNG files of `RENDERS` become part of the page. Without the robot's GLB file there is no 3-D view. `files` are paths
+    in the bundle to which it links; recorded jumps in a row are shown instead of the one jump.
     """
     values = {
-        "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(), "sure": sure,
+        "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(),
+        "sure": sure if jump.verdict == "jump" else None,
         "sure_figures": FIGURES, "beside": compared_of(robot.design),
-        "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
+        "pictures": {title: base64.b64encode(png).decode() for title in RENDERS if (png := pictures.get(title))},
         "viewer": None if glb is None else viewer_values(robot, jump, glb, series), "series": series,
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"), "version": __version__,
         "robot": robot, "train": robot.layout.drive.train, "spring_deg": math.degrees(robot.spring.wind_rad),

@@ -134,8 +134,7 @@ def _packer(sizes: Sequence[tuple[int, ...]], bed_mm: Sequence[float], spacing_m
 def _beside(plate: Iterable[Any], bed_mm: Sequence[float], spacing_mm: float) -> Array:
     """Return how much of the bed (2,) is left on either side of what a plate has, in whole steps."""
     used = np.max([(rect.x + rect.width, rect.y + rect.height) for rect in plate], axis=0) / STEPS_PER_MM - spacing_mm
-    left: Array = np.floor((np.asarray(bed_mm[:2]) - used) / 2.0 * STEPS_PER_MM) / STEPS_PER_MM
-    return left
+    return np.asarray(np.floor((np.asarray(bed_mm[:2]) - used) / 2.0 * STEPS_PER_MM) / STEPS_PER_MM)
 
 
 def _angle_deg(part: Printable, bed_mm: Sequence[float]) -> float:

@@ -73,8 +73,7 @@ def aimed(frame_m: Array, view: View, aspect: float) -> Camera:
 
 def turned(vectors: Array, rotation: Array) -> Array:
     """Return vectors (…, 3) rotated by a matrix (3, 3), without BLAS: the same on every processor."""
-    result: Array = np.einsum("...j,kj->...k", vectors, rotation)
-    return result
+    return np.asarray(np.einsum("...j,kj->...k", vectors, rotation))
 
 
 if TYPE_CHECKING:

@@ -125,8 +125,7 @@ def _middle_mm(spring: TorsionSpring, hand: str, scale: float) -> Array:
     points, half = _drawn_mm(spring, hand, scale), scale * spring.wire_mm / 2.0
     (low, high), usual = _room_mm(spring, scale), np.array(END_VIEW_MM)
     before, beyond = low - (usual + points.min(axis=0) - half), usual + points.max(axis=0) + half - high
-    middle: Array = usual + np.maximum(before, 0.0) - np.maximum(beyond, 0.0)
-    return middle
+    return np.asarray(usual + np.maximum(before, 0.0) - np.maximum(beyond, 0.0))
 
 
 def _fits(spring: TorsionSpring, hand: str, scale: float) -> bool:
