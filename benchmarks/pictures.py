@@ -31,8 +31,7 @@ from jumpcad.landing.series import jumps
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import View
-from jumpcad.scene.renderer import paletted
+from jumpcad.scene.renderer import View, paletted
 from jumpcad.simulation import Settings, simulate
 from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, own_workshop

@@ -21,9 +21,8 @@ from jumpcad.landing.arena import STILL_M_S, STILL_RAD_S, Arena, Floor
 from jumpcad.landing.landing import DROP_M, scattered_floor
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import aimed
 from jumpcad.scene.labels import with_floor
-from jumpcad.scene.renderer import Renderer
+from jumpcad.scene.renderer import Renderer, aimed
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import Array, chained, pose_at
 from jumpcad.workshop import Workshop

@@ -53,16 +53,9 @@ def write_folder(
 ) -> Bundle:  # fmt: skip
     """Write files and the manifest that lists them, in place of those of an older bundle.
 
-    Parameters
-    ----------
-    folder
-        Is made, with its parents; may be empty or hold a bundle; files that a user added to it stay.
-    name, facts
-        Entries of the manifest, in addition to the versions and the sha256 of every file.
-    contents
-        Path and content of every file, except the manifest.
-    force
-        Whether to replace another bundle too, and files that a user edited, or added under a path of the bundle.
+    The folder is made, with its parents; it may be empty or hold a bundle; files that a user added to it stay. `name`
+    and `facts` are entries of the manifest, in addition to the versions and the sha256 of every file. `force` replaces
+    another bundle too, and files that a user edited, or added under a path of the bundle.
     """
     target = _writable_folder(folder)
     versions = {"jumpcad": __version__} | {library: importlib.metadata.version(library) for library in LIBRARIES}

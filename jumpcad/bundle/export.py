@@ -3,7 +3,7 @@
 The same robot gives the same bytes.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -11,17 +11,15 @@ from typing import Any
 from jumpcad.building.bom import bill_of_materials, mass_facts, write_bom
 from jumpcad.bundle import facts
 from jumpcad.bundle.atomic_write import require_place, write_folder
-from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
-from jumpcad.bundle.drawings.spring_sheet import spring_sheets
+from jumpcad.bundle.drawings.spring_sheet import spring_dxfs, spring_sheets
 from jumpcad.bundle.drawings.wiring import drawings_of
 from jumpcad.bundle.firmware import firmware_files
-from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.bundle.guide.page import write_page
+from jumpcad.bundle.guide.markdown import write_guide, write_page
 from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.manifest import DESIGN, WORKSHOP, Bundle
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.bundle.page import write_report
-from jumpcad.bundle.renders import RENDERS, all_pictures, renders
+from jumpcad.bundle.renders import all_pictures, renders
 from jumpcad.bundle.weigh_sheet import weigh_sheet
 from jumpcad.collision.hulls import share_on_feet
 from jumpcad.coupon.contents import coupon_files, coupon_masses, coupon_pieces
@@ -33,7 +31,7 @@ from jumpcad.landing.series import Series
 from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
 from jumpcad.simulation import Jump, headline
-from jumpcad.simulation.uncertain import Uncertainty, uncertainty_of
+from jumpcad.simulation.uncertain import uncertainty_of
 from jumpcad.workshop import Workshop, varied
 
 
@@ -105,33 +103,25 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     svgs = {path: str(text).encode() for path, text in files.items() if path.endswith(".svg")}
     page = write_page(guide, robot.name, {**shown, **svgs})
     files |= {**shown, **guide, "assembly.html": page}
-    files["report.html"] = _page(robot, jump, seen, glb if pictures and isinstance(glb, bytes) else None, files, sure)
+    shown_glb = glb if pictures and isinstance(glb, bytes) else None
+    files["report.html"] = write_report(robot, seen, jump, shown_glb, tuple(files), sure)
     return files.items()
 
 
 def report_page(
-    robot: Robot, files: Iterable[str] = (), series: Series | None = None, steps: Iterable[str] = ()
+    robot: Robot, files: Iterable[str] = (), series: Series | None = None, steps: Sequence[str] = ()
 ) -> str:
     """Return report.html alone, with links to `files` relative to it.
 
     It shows recorded jumps in a row, and what the next `steps` of the design are worth, if given.
     """
-    seen, sure = renders(robot), uncertainty_of(robot)
-    return _page(robot, headline(robot, True), seen, write_glb(robot), files, sure, series, steps)
-
-
-def _page(
-    robot: Robot, jump: Jump, seen: Mapping[str, bytes], glb: bytes | None, files: Iterable[str],
-    sure: Uncertainty | None, series: Series | None = None, steps: Iterable[str] = (),
-) -> str:  # fmt: skip
-    pictures = {name: seen[name] for name in RENDERS if name in seen}
-    known = sure if jump.verdict == "jump" else None
-    return write_report(robot, pictures, jump, glb, tuple(files), known, series, tuple(steps))
+    jump, sure = headline(robot, True), uncertainty_of(robot)
+    return write_report(robot, renders(robot), jump, write_glb(robot), files, sure, series, steps)
 
 
 def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
     """Return the manifest's entries about the robot."""
-    bill = bill_of_materials(robot)
+    bill, ground = bill_of_materials(robot), robot.workshop.ground
     return {
         "mass_kg": robot.mass_kg,
         "masses": mass_facts(bill.items),
@@ -151,11 +141,7 @@ def _facts(robot: Robot, jump: Jump) -> dict[str, Any]:
         "cage": facts.cage_facts(robot),
         "flight": facts.flight_facts(jump),
         "rights_itself": {"static": round(share_on_feet(robot), 3)},
-        "ground": {
-            "friction": robot.workshop.ground.foot_friction,
-            "pad": robot.workshop.ground.pad,
-            "surface": robot.workshop.ground.surface,
-        },
+        "ground": {"friction": ground.foot_friction, "pad": ground.pad, "surface": ground.surface},
     }
 
 

@@ -36,20 +36,15 @@ def spring_facts(robot: Robot) -> list[dict[str, Any]]:
     )
     return [
         {
-            "side": side,
-            "hand": hand,
-            "wire_mm": spring.wire_mm,
-            "inside_diameter_mm": round(spring.inside_diameter_mm, DIGITS),
-            "turns": round(spring.turns, DIGITS),
+            "side": side, "hand": hand, "wire_mm": spring.wire_mm,
+            "inside_diameter_mm": round(spring.inside_diameter_mm, DIGITS), "turns": round(spring.turns, DIGITS),
             "arm_length_mm": round(spring.arm_length_mm, DIGITS),
             "rate_nmm_per_deg": round(spring.rate_nmm_per_deg, DIGITS),
-            "preload_deg": round(math.degrees(spring.preload_rad), DIGITS),
-            "plate_pin_mm": plate,
-            "leg_pin_mm": leg,
+            "preload_deg": round(math.degrees(spring.preload_rad), DIGITS), "plate_pin_mm": plate, "leg_pin_mm": leg,
             "pin_diameter_mm": spring.arms.pin_mm,
         }
         for side, hand in zip(("left", "right"), spring.hands, strict=True)
-    ]
+    ]  # fmt: skip
 
 
 def release_facts(release: Release) -> dict[str, Any]:
@@ -96,14 +91,11 @@ def electronics_facts(robot: Robot) -> dict[str, Any]:
     empty, full = chosen.battery.range_v
     chained = [
         {
-            "role": link.role,
-            "name": link.name,
-            "pin": link.pin,
-            "gets_v": _rounded(link.gets_v),
+            "role": link.role, "name": link.name, "pin": link.pin, "gets_v": _rounded(link.gets_v),
             "bears_v": None if link.bears_v is None else _rounded(link.bears_v),
         }
         for link in links(robot)
-    ]
+    ]  # fmt: skip
     return {
         "kit": robot.workshop.bought.kit,
         "battery": chosen.battery.name,
@@ -129,17 +121,14 @@ def joint_facts(robot: Robot) -> dict[str, Any]:
     layout, workshop = robot.layout, robot.workshop
     holes = HoleSizes.of(workshop, layout.hub_bearing)
     return {
-        "retention": layout.retention,
-        "axle": workshop.bought.axle,
-        "axle_mm": layout.axle_mm,
-        "pinion_rib_mm": workshop.fits.rib_mm,
-        "play_deg": round(math.degrees(play_rad(layout, holes)), ROLL_DIGITS),
+        "retention": layout.retention, "axle": workshop.bought.axle, "axle_mm": layout.axle_mm,
+        "pinion_rib_mm": workshop.fits.rib_mm, "play_deg": round(math.degrees(play_rad(layout, holes)), ROLL_DIGITS),
         "toe_half_width_mm": round(layout.toe_half_width_mm, ROLL_DIGITS),
         "roll_deg": {
             roll.state: {"stance": round(roll.stance_deg, ROLL_DIGITS), "play": round(roll.play_deg, ROLL_DIGITS)}
             for roll in rolls(robot)
         },
-    }
+    }  # fmt: skip
 
 
 def cage_facts(robot: Robot) -> dict[str, Any] | None:
@@ -154,16 +143,13 @@ def cage_facts(robot: Robot) -> dict[str, Any] | None:
     return {
         "rods": [
             {
-                "name": arc.name,
-                "material": cage.rod.name,
-                "diameter_mm": cage.rod.diameter_mm,
-                "length_mm": round(arc.length_mm, 1),
-                "radius_mm": round(arc.radius_mm, 1),
+                "name": arc.name, "material": cage.rod.name, "diameter_mm": cage.rod.diameter_mm,
+                "length_mm": round(arc.length_mm, 1), "radius_mm": round(arc.radius_mm, 1),
             }
             for arc in cage.arcs
         ],
         "mass_kg": sum(piece.mass_kg for piece in pieces if piece.name.startswith(CAGE)),
-    }
+    }  # fmt: skip
 
 
 def flight_facts(jump: Jump) -> dict[str, float] | None:

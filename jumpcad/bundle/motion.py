@@ -53,15 +53,10 @@ class PhasePose:
 def motion(robot: Robot, trajectory: Trajectory | None, takeoff_s: float | None) -> dict[str, Any]:
     """Return the motion as columns for the viewer; without a trajectory it ends with loaded springs.
 
-    `takeoff_s` is the time of take-off in the trajectory.
-
-    Returns
-    -------
-    dict
-        `show_s` (n,) is the time at which each moment is shown, `time_s` (n,) the real time since the start of its
-        phase, `phase` (n,) the phase's name, `phases` the time scale of each phase in words, `cam_rad` and `gear_rad`
-        (n,) are angles from rest, `com_m` (n, 2) is the centre of mass in x and z, `frames` has position and quaternion
-        xyzw (n, 7) by body.
+    `takeoff_s` is the time of take-off in the trajectory. Of the columns `show_s` (n,) is the time at which each moment
+    is shown, `time_s` (n,) the real time since the start of its phase, `phase` (n,) the phase's name, `phases` the time
+    scale of each phase in words, `cam_rad` and `gear_rad` (n,) are angles from rest, `com_m` (n, 2) is the centre of
+    mass in x and z, `frames` has position and quaternion xyzw (n, 7) by body.
     """
     return _columns(robot, list(_moments(robot, trajectory, takeoff_s)), SHOWN_S)
 

@@ -14,6 +14,7 @@ from pydantic import Field
 
 from jumpcad.building.bom import bill_of_materials, euros
 from jumpcad.bundle.limits import limit_values, limits_of, with_verdict
+from jumpcad.bundle.renders import RENDERS
 from jumpcad.bundle.viewer import viewer_values
 from jumpcad.design import Design, load_design
 from jumpcad.dimensions import unit_of_key
@@ -67,44 +68,26 @@ def write_report(
     robot: Robot, pictures: Mapping[str, bytes], jump: Jump, glb: bytes | None = None, files: Iterable[str] = (),
     sure: Uncertainty | None = None, series: Series | None = None, steps: Sequence[str] = (),
 ) -> str:  # fmt: skip
-    """Return the page.
+    """Return the page; the jump has its trajectory if the page shows the motion.
 
-    Parameters
-    ----------
-    robot, jump
-        The robot and its jump, with its trajectory if the page shows the motion.
-    pictures
-        PNG files by title; they become part of the page.
-    glb
-        The robot's GLB file; without it there is no 3-D view.
-    files
-        Paths in the bundle that the page links to.
-    sure
-        How sure range and rise are.
-    series
-        Recorded jumps in a row, to be shown instead of the one jump.
-    steps
-        What more of each of the tightest limits is worth, a line each.
+    PNG files of `RENDERS` become part of the page. Without the robot's GLB file there is no 3-D view. `files` are paths
+    in the bundle to which it links; recorded jumps in a row are shown instead of the one jump. `steps` say what more
+    of each of the tightest limits is worth, a line each.
     """
     values = {
-        "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(), "sure": sure,
+        "jump": jump, "broken": errors(jump.findings), "energy_words": ACCOUNT, "band": efficiency_band(),
+        "sure": sure if jump.verdict == "jump" else None,
         "sure_figures": FIGURES, "beside": compared_of(robot.design),
-        "pictures": {title: base64.b64encode(png).decode() for title, png in pictures.items()},
+        "pictures": {title: base64.b64encode(png).decode() for title in RENDERS if (png := pictures.get(title))},
         "viewer": None if glb is None else viewer_values(robot, jump, glb, series), "series": series,
         "steps": steps,
         "style": (templates_folder() / "report" / "style.css").read_text(encoding="ascii"), "version": __version__,
-    }  # fmt: skip
-    values |= robot_values(robot) | file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
-    return allowed(fill("report/report.html.j2", values))
-
-
-def robot_values(robot: Robot) -> dict[str, Any]:
-    """Return what the page says of printing, parts and figures."""
-    return {
         "robot": robot, "train": robot.layout.drive.train, "spring_deg": math.degrees(robot.spring.wind_rad),
         "parameters": type(robot.design).model_fields, "unit_of_key": unit_of_key, "bill": bill_of_materials(robot),
         "euros": euros,
     }  # fmt: skip
+    values |= file_values(files) | limit_values(with_verdict(limits_of(robot), jump))
+    return allowed(fill("report/report.html.j2", values))
 
 
 def file_values(files: Iterable[str]) -> dict[str, Any]:

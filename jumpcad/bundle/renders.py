@@ -13,9 +13,8 @@ from jumpcad.bundle.motion import recorded_poses
 from jumpcad.mechanism.model import BODY
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import STRIPE_M, labelled, with_floor
-from jumpcad.scene.renderer import COMPRESSION, Renderer, paletted, png_of
+from jumpcad.scene.renderer import COMPRESSION, Renderer, View, aimed, paletted, png_of
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.steps.assembly_steps import assembly_steps
@@ -30,18 +29,6 @@ COMPASS = MappingProxyType({"front": 0, "left": 1})
 """What every picture of a bundle marks: axes of the standing robot."""
 ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
-
-
-def step_pictures(robot: Robot, things: tuple[Visual, ...], scene: Renderer) -> dict[str, bytes]:
-    """Return the PNG files of all steps (`step-3`) and their details (`step-3-springs`), by name.
-
-    `scene` has the meshes of `things`, in their order.
-    """
-    number = {thing.name: index for index, thing in enumerate(things)}
-    pictures = {}
-    for name, view in named_views(robot):
-        pictures[name] = _picture(view, number, scene, SIZE if name.count("-") == 1 else INSET_SIZE)
-    return pictures
 
 
 def named_views(robot: Robot) -> list[tuple[str, StepView]]:
@@ -90,7 +77,7 @@ EXPLODED_VIEW = View(yaw_deg=-34.0, pitch_deg=24.0)
 JUMP_VIEW = View(yaw_deg=-80.0, pitch_deg=6.0)
 
 
-def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer | None = None) -> dict[str, bytes]:
+def renders(robot: Robot, scene: Renderer | None = None) -> dict[str, bytes]:
     """Return the PNG files of a robot at rest, loaded and exploded, by their names in `RENDERS`.
 
     `scene` has the meshes of its visible parts, if it is there already.
@@ -100,7 +87,9 @@ def renders(robot: Robot, size: tuple[int, int] = RENDER_SIZE, scene: Renderer |
     rest, loaded = _poses(things, body_poses(robot)), _poses(things, body_poses(robot, 1.0))
     scenes = ((rest, View()), (loaded, View()), (exploded(things, rest), EXPLODED_VIEW))
     return {
-        name: png_of(labelled(scene.picture(poses, size, view, corners_of(things, poses)), [], compass=compass(view)))
+        name: png_of(
+            labelled(scene.picture(poses, RENDER_SIZE, view, corners_of(things, poses)), [], compass=compass(view))
+        )
         for name, (poses, view) in zip(RENDERS, scenes, strict=True)
     }
 
@@ -113,10 +102,13 @@ def rest_picture(robot: Robot, size: tuple[int, int] = RENDER_SIZE) -> bytes:
 
 
 def all_pictures(robot: Robot) -> dict[str, bytes]:
-    """Return the PNG files of a robot and of every step of its assembly, by name."""
+    """Return the PNG files of a robot, of all steps (`step-3`) and of their details (`step-3-springs`), by name."""
     things = visuals(robot)
-    scene = _renderer(things)
-    return renders(robot, scene=scene) | step_pictures(robot, things, scene)
+    scene, number = _renderer(things), {thing.name: index for index, thing in enumerate(things)}
+    return renders(robot, scene) | {
+        name: _picture(view, number, scene, SIZE if name.count("-") == 1 else INSET_SIZE)
+        for name, view in named_views(robot)
+    }
 
 
 def jump_gif(robot: Robot, trajectory: Trajectory, size: tuple[int, int] = JUMP_SIZE) -> bytes:

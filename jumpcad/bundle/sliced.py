@@ -1,7 +1,7 @@
 """Mass and printing time of a bundle's parts and plates by PrusaSlicer, compared with the printed-mass model."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -92,16 +92,9 @@ class SlicedBundle:
 def slice_bundle(
     folder: str | Path, workshop: Workshop | None = None, tell: Callable[[str], None] = lambda name: None
 ) -> SlicedBundle:
-    """Slice every part and every plate of a bundle.
+    """Slice every part and every plate of a bundle, with a workshop's print settings: by default the bundle's own.
 
-    Parameters
-    ----------
-    folder
-        The bundle.
-    workshop
-        With the print settings; by default the bundle's own.
-    tell
-        Called with the name of each part and plate before it is sliced.
+    `tell` is called with the name of each part and plate before it is sliced.
     """
     if wrong := verify(folder):
         raise JumpcadError(f"{folder} is not as it was built: {few(wrong)}; build it again with jumpcad build")
@@ -112,7 +105,10 @@ def slice_bundle(
     version = slicer_version()
     built_in = kept_workshop(bundle)
     workshop = workshop or built_in
-    _require_materials([*(line["material"] for line in printed), *(plate[2] for plate in _plates(bundle))], workshop)
+    for name in (*(line["material"] for line in printed), *(plate[2] for plate in _plates(bundle))):
+        if name not in workshop.materials:
+            known = ", ".join(workshop.materials)
+            raise JumpcadError(f"the bundle has parts of {name}, but the workshop only {known}: build it with that")
     ignored: dict[str, tuple[str, str]] = {}
     parts, plates = [], []
     for line in printed:
@@ -153,14 +149,6 @@ def _plates(bundle: Bundle) -> Iterator[tuple[Path, str, str]]:
     for path in bundle.files:
         if found := PLATE.fullmatch(path):
             yield bundle.file(path), found[1], found[2]
-
-
-def _require_materials(names: Iterable[str], workshop: Workshop) -> None:
-    """Raise `JumpcadError` if a workshop lacks a material of the bundle."""
-    for name in names:
-        if name not in workshop.materials:
-            known = ", ".join(workshop.materials)
-            raise JumpcadError(f"the bundle has parts of {name}, but the workshop only {known}: build it with that")
 
 
 def _grams(model: Path, sliced: Sliced) -> float:

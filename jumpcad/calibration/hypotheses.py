@@ -67,12 +67,10 @@ def _judged(model: CalibrationModel, draws: Parts) -> dict[str, Any]:
         given = [more * energy_per_mass(one, values) for more, (_, values) in zip(springs, draws, strict=True)]
         energies[one.name] = _median(np.concatenate(given), weight)
     return {
-        "log_evidence": float(logsumexp(chance)) - math.log(chance.size),
-        "readings": ways[likely],
-        "energy_per_mass": energies,
-        "figures": rows,
+        "log_evidence": float(logsumexp(chance)) - math.log(chance.size), "readings": ways[likely],
+        "energy_per_mass": energies, "figures": rows,
         "worst_share": max(abs(row["off_share"]) for row in rows if row["what"] != "battery"),
-    }
+    }  # fmt: skip
 
 
 def _log_likelihood(model: CalibrationModel, predicted: dict[str, Predicted], way: dict[str, str]) -> Array:

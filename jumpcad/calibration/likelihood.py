@@ -179,8 +179,7 @@ def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
     """Return the energy that the springs deliver per mass of the robot, over the model's (n,)."""
     kept = 1.0 if subject.measured.release == "dog" else priors.release_share(values["back_efficiency"])
     given: Array = values["spring_efficiency"] * values[f"rate:{subject.pair}"] * kept
-    energy: Array = given / values[f"mass:{subject.name}"]
-    return energy
+    return np.asarray(given / values[f"mass:{subject.name}"])
 
 
 def data_of(subject: Subject) -> list[Datum]:

@@ -188,14 +188,8 @@ HEIGHTS_M = 0.045
 def contradictions(measured: Measurements, standing_m: float, weight_n: float) -> Iterator[str]:
     """Yield what contradicts what, and what to do.
 
-    Parameters
-    ----------
-    measured
-        The measurements of one robot.
-    standing_m
-        Height of its centre of mass above the floor, standing with loaded springs.
-    weight_n
-        Its weight, on the scale or by the model.
+    The standing robot's centre of mass is `standing_m` above the floor, springs loaded; its weight is on the scale or
+    by the model.
     """
     yield from _of_floor(measured, weight_n)
     yield from _of_distances(measured.jumps)

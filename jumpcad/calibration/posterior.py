@@ -69,16 +69,13 @@ class CalibrationPosterior(ByValue):
         deviation = self.z.std(axis=0)
         return [
             {
-                "key": one.key,
-                "label": one.label,
-                "prior": list(one.prior.quantiles(QUANTILES)),
-                "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(),
-                "spread": float(deviation[index]),
+                "key": one.key, "label": one.label, "prior": list(one.prior.quantiles(QUANTILES)),
+                "posterior": np.quantile(self.values[one.key], QUANTILES).tolist(), "spread": float(deviation[index]),
                 "verdict": _verdict(float(deviation[index]), float(self.z[:, index].mean())),
                 "source": one.prior.source,
             }
             for index, one in enumerate(self.model.parameters)
-        ]
+        ]  # fmt: skip
 
     def energies(self) -> dict[str, list[float]]:
         """Return, by robot, quantiles of the springs' energy per mass over the model's: jumps determine it best."""
@@ -106,16 +103,9 @@ class CalibrationPosterior(ByValue):
 
 @check_arguments
 def calibrate(files: Sequence[str | Path], seed: int = 0, landing: bool = False) -> CalibrationPosterior:
-    """Calibrate on the measurements of one or several robots.
+    """Calibrate on the measurements of one or several robots: templates' names or TOML files.
 
-    Parameters
-    ----------
-    files
-        Templates' names or TOML files, one a robot.
-    seed
-        Random seed of the sampler.
-    landing
-        Whether the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
+    With `landing` the travel after landing is that of simulated landings (MuJoCo), not anything up to some 200 mm.
     """
     if not files:
         raise JumpcadError("no measurements: name at least one file, or the template kenan-1.0")

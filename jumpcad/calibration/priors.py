@@ -31,8 +31,7 @@ KEPT_WITHOUT_BACKDRIVE = 0.4
 
 def release_share(back_efficiency: Array) -> Array:
     """Return the share of the springs' energy that is left after a release without a dog."""
-    kept: Array = KEPT_WITHOUT_BACKDRIVE + (1.0 - KEPT_WITHOUT_BACKDRIVE) * back_efficiency
-    return kept
+    return np.asarray(KEPT_WITHOUT_BACKDRIVE + (1.0 - KEPT_WITHOUT_BACKDRIVE) * back_efficiency)
 
 
 def weighed_mass(weighed_g: float, model_g: float, error_g: float | None) -> Prior:

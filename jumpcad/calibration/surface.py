@@ -55,8 +55,7 @@ class JumpAt:
     @property
     def angle_deg(self) -> Array:
         """Take-off angle above the ground."""
-        angle: Array = np.degrees(np.arctan2(self.up_m_s, self.forward_m_s))
-        return angle
+        return np.asarray(np.degrees(np.arctan2(self.up_m_s, self.forward_m_s)))
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,8 +101,7 @@ class Surface:
         engine = [_jump(self.mechanism, *point) for point in zip(energy, pins, floor, strict=True)]
         ranges = np.array([jump.ballistic_range_m or np.nan for jump in engine])
         off = np.abs(found / ranges - 1.0)
-        known: Array = off[np.isfinite(off)]
-        return known
+        return np.asarray(off[np.isfinite(off)])
 
 
 def surface_of(mechanism: Mechanism, nodes: Nodes = NODES) -> Surface:

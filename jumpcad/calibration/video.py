@@ -241,5 +241,4 @@ def _ways_out(ways: list[tuple[str, float]], slow_motion: float) -> str:
 
 
 def _residual(matrix: Array, values: Array) -> Array:
-    left: Array = values - np.einsum("ij,j...->i...", matrix, np.linalg.lstsq(matrix, values, rcond=None)[0])
-    return left
+    return np.asarray(values - np.einsum("ij,j...->i...", matrix, np.linalg.lstsq(matrix, values, rcond=None)[0]))

@@ -29,9 +29,8 @@ from jumpcad.files.rendering import fill, render
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import MassLine
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.scene.camera import View, aimed
 from jumpcad.scene.labels import labelled
-from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, paletted, png_of
+from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, View, aimed, paletted, png_of
 from jumpcad.solids.stl import require_part, write_stl
 from jumpcad.transforms import Array, pose_at
 from jumpcad.workshop import Workshop

@@ -120,19 +120,10 @@ class Readings(Record):
 
 
 def measured_workshop(readings: Readings, workshop: Workshop, source: str = "readings") -> Workshop:
-    """Return the workshop with the fits that were read from its coupon.
+    """Return the workshop with the fits that were read from its coupon; errors name the source.
 
     A floor that broke below its computed strength lowers the strength of the body's material, and that between its
     layers to no more than it; nothing else changes.
-
-    Parameters
-    ----------
-    readings
-        Of this workshop's coupon.
-    workshop
-        The base.
-    source
-        Where the readings come from, for errors.
     """
     if wrong := list(_complaints(readings, workshop)):
         raise JumpcadError("; ".join(f"{source}: {complaint}" for complaint in wrong))

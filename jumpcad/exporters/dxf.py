@@ -28,19 +28,10 @@ PLATES = ("body_plate_left", "body_plate_right")
 
 def dxf_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and content of every body plate's drawing."""
-    for name, drawing in write_dxfs(robot).items():
-        yield f"dxf/{name}.dxf", drawing
-
-
-def write_dxfs(robot: Robot) -> dict[str, str]:
-    """Return the DXF document of every body plate, by the part's name."""
-    layout = robot.layout
-    thickness = dict(zip(PLATES, (layout.lateral.left_plate, layout.lateral.right_plate), strict=True))
-    return {
-        part.name: write_dxf(*sheet(part, thickness[part.name][1] - thickness[part.name][0]))
-        for part in robot.parts
-        if part.name in thickness
-    }
+    lateral = robot.layout.lateral
+    thick = dict(zip(PLATES, (lateral.left_plate, lateral.right_plate), strict=True))
+    for part in (part for part in robot.parts if part.name in thick):
+        yield f"dxf/{part.name}.dxf", write_dxf(*sheet(part, thick[part.name][1] - thick[part.name][0]))
 
 
 def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:

@@ -131,13 +131,11 @@ def animated(glb: bytes, motion: BodyMotion) -> bytes:
 def _continuous(quaternions: Array) -> Array:
     """Return quaternions (n, 4) without jumps of sign (q and -q are one rotation): viewers interpolate linearly."""
     signs = np.cumprod(np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
-    continuous: Array = quaternions * np.append(1.0, signs)[:, None]
-    return continuous
+    return np.asarray(quaternions * np.append(1.0, signs)[:, None])
 
 
 def _rounded(values: Array) -> Array:
-    rounded: Array = np.round(values, DIGITS) + 0.0
-    return rounded
+    return np.asarray(np.round(values, DIGITS) + 0.0)
 
 
 def _split_matrix(node: dict[str, Any]) -> None:

@@ -9,7 +9,8 @@ from jumpcad.exporters.mjcf_robot import mjcf_files
 from jumpcad.exporters.ros2 import ros2_files
 from jumpcad.exporters.sdf import sdf_files
 from jumpcad.exporters.step import require_step, step_files
-from jumpcad.exporters.threemf import stl_files, threemf_files
+from jumpcad.exporters.stl import stl_files
+from jumpcad.exporters.threemf import threemf_files
 from jumpcad.exporters.urdf import urdf_files
 from jumpcad.robot.robot import Robot
 

@@ -1,9 +1,8 @@
-"""What is printed: an STL file for each part, and a 3MF file for each print plate, with picture and print settings.
+"""3MF: one print plate per file, every part a named object (3MF Core Specification 1.3), picture and print settings.
 
-In a 3MF file every part is a named object (3MF Core Specification 1.3). It is written without a library: fixed
-dates and a fixed order give the same bytes, and strict readers report nothing. The settings are in the two files in
-which PrusaSlicer keeps those of a project. Other slicers read the geometry alone, so `print/README.md` has the settings
-in words.
+Written without a library: fixed dates and a fixed order give the same bytes, and strict readers report nothing. The
+settings are in the two files in which PrusaSlicer keeps those of a project. Other slicers read the geometry alone, so
+`print/README.md` has the settings in words.
 """
 
 import io
@@ -26,22 +25,10 @@ from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.prusaslicer import project_settings
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.scene.camera import View
-from jumpcad.scene.renderer import Renderer, png_of
+from jumpcad.scene.renderer import Renderer, View, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
-from jumpcad.solids.stl import require_part, write_stl
 from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
-
-
-def stl_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
-    """Yield path and content of every part's file."""
-    parts: list[Printable] = [*robot.parts, *printed_pads(robot.hardware, robot.workshop)]
-    for part in parts:
-        stl = write_stl(part.mesh)
-        require_part(part.name, stl)
-        yield f"stl/{part.name}.stl", stl
-
 
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 PADS = "pads"

@@ -59,8 +59,7 @@ def rpy(rotation: Array) -> Array:
 
 def wxyz(rotation: Array) -> Array:
     """Return the quaternion (4,), scalar first, of a rotation (3, 3), as in MJCF."""
-    quaternion: Array = Rotation.from_matrix(rotation).as_quat(scalar_first=True)
-    return quaternion
+    return np.asarray(Rotation.from_matrix(rotation).as_quat(scalar_first=True))
 
 
 def limits(joint: Joint, mechanism: Mechanism) -> dict[str, float]:

@@ -85,12 +85,10 @@ class Landings:
             for one in self.tries
         ]
         figures: dict[str, Any] = {
-            "drops_righted": self.drops_righted,
-            "share_on_feet": self.share_on_feet,
-            "share_righted": self.share_righted,
-            "share_on_feet_static": self.share_on_feet_static,
+            "drops_righted": self.drops_righted, "share_on_feet": self.share_on_feet,
+            "share_righted": self.share_righted, "share_on_feet_static": self.share_on_feet_static,
             "rests_on": self.rests_on,
-        }
+        }  # fmt: skip
         strength = None if self.strength is None else self.strength.to_dict()
         forces = [asdict(one) for one in self.forces]
         falls = {one.name: one.to_dict() for one in self.falls}

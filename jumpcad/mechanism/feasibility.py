@@ -7,13 +7,13 @@ the first test that fails, in this order; of a printed robot springs that are to
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.findings import Basis, Finding, at_least, higher, lower, nearer_to_1
 from jumpcad.mechanism.linkage import Linkage, Pose, linkage_of, toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Mechanism
+from jumpcad.mechanism.planar import points
 from jumpcad.transforms import Array
 
 TAKEOFF_ENERGY_FACTOR = 1.3
@@ -111,19 +111,14 @@ def centre_of_mass_on_foot_mm(mechanism: Mechanism, linkage: Linkage, pose: Pose
         BODY: (still, still),
         MAIN_LEG: (still - linkage.l1 / 2, linkage.rest_rad + pose.leg_rad),
         FRONT_LINK: (still + linkage.l1 / 2, linkage.rest_rad + pose.front_rad),
-        FOOT: (_complex(pose.ankle_mm), pose.foot_rad),
+        FOOT: (points(pose.ankle_mm), pose.foot_rad),
     }
     moment = still + 0j
     for name, (origin, angle) in places.items():
         body = mechanism.bodies[name]
-        moment += body.mass_kg * (origin + 1000.0 * _complex(body.com_m[::2]) * np.exp(-1j * angle))
-    centre = (moment / mechanism.mass_kg - _complex(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
+        moment += body.mass_kg * (origin + 1000.0 * points(body.com_m[::2]) * np.exp(-1j * angle))
+    centre = (moment / mechanism.mass_kg - points(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
     return np.stack([centre.real, centre.imag], axis=-1)
-
-
-def _complex(point: Array) -> npt.NDArray[np.complex128]:
-    """Return points (..., 2) of the x-z plane as x + iz, which exp(-i·angle) turns about +y."""
-    return point[..., 0] + 1j * point[..., 1]
 
 
 def _winding_finding(design: Design) -> Finding:

@@ -37,13 +37,7 @@ class Pose:
 
 
 class Linkage:
-    """The four-bar of one design.
-
-    Parameters
-    ----------
-    design
-        Its eight parameters.
-    """
+    """The four-bar of one design."""
 
     def __init__(self, design: Design) -> None:
         self.design = design

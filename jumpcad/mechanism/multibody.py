@@ -88,18 +88,9 @@ class Loop(ByValue):
 class Spring:
     """All torsion springs on one joint together, loaded by q = -wind_rad before release.
 
-    Attributes
-    ----------
-    joint
-        Name of the joint on which they act.
-    stiffness_nm_per_rad
-        Of both springs together.
-    wind_rad
-        From the rest pose (q = 0) to the loaded one; that of other robots than five-bars is found, and 0 here.
-    preload_rad
-        How far the springs are still loaded in the rest pose: their arms are free at q = preload_rad.
-    one_sided
-        The arms only push: beyond the angle at which they are free there is no torque.
+    `wind_rad` is from the rest pose (q = 0) to the loaded one; that of other robots than five-bars is found, and 0
+    here. `preload_rad` is how far the springs are still loaded in the rest pose: their arms are free at q =
+    preload_rad. Arms of `one_sided` springs only push: beyond the angle at which they are free there is no torque.
     """
 
     joint: str

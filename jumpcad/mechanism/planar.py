@@ -82,17 +82,10 @@ WEAKEST = 0.2
 
 @dataclass(frozen=True)
 class ReflectedMass:
-    """Reflected mass and weight at wind angles (n,) that grow from rest to the loaded springs.
+    """Reflected mass and weight at evenly spaced wind angles (n,) that grow from rest to the loaded springs.
 
-    Attributes
-    ----------
-    wind_rad
-        Angles (n,), evenly spaced.
-    inertia_kg_m2, inertia_slope
-        Reflected inertia I (n,), of which half times the wind rate squared is the kinetic energy; its slope by the
-        wind angle.
-    weight_nm
-        Slope (n,) of the potential energy of weight by the wind angle: negative where the body sinks.
+    Half of the reflected inertia I (n,) times the wind rate squared is the kinetic energy; `inertia_slope` is its slope
+    by the wind angle, `weight_nm` that of the potential energy of weight: negative where the body sinks.
     """
 
     wind_rad: Array

@@ -91,12 +91,10 @@ class Reproduction:
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         return {
-            "robot": self.published.template,
-            "published": asdict(self.published.simulated),
-            "reproduced": asdict(self.again),
-            "measured": self.published.measured and asdict(self.published.measured),
+            "robot": self.published.template, "published": asdict(self.published.simulated),
+            "reproduced": asdict(self.again), "measured": self.published.measured and asdict(self.published.measured),
             "evaluated": self.jump.to_dict(),
-        }
+        }  # fmt: skip
 
 
 def reproduce() -> list[Reproduction]:

@@ -34,14 +34,8 @@ class BedFit:
 def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
     """Return how a part fits the bed: along its sides if it can, else at an angle; the best if it does not fit.
 
-    Parameters
-    ----------
-    bounds_mm
-        Lower and upper corner of its bounding box, (2, 3).
-    outline
-        Gives points (n, 2) that span its convex hull seen from above; asked for only where the box does not fit.
-    bed_mm
-        Usable bed (x, y, z).
+    Given are lower and upper corner of its bounding box, (2, 3), and the usable bed (x, y, z). `outline` gives points
+    (n, 2) that span its convex hull seen from above; it is asked only where the box does not fit.
     """
     x, y, z = (bounds_mm[1] - bounds_mm[0]).tolist()
     bed_x, bed_y, bed_z = bed_mm

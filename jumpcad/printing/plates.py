@@ -84,16 +84,7 @@ def packed(parts: Iterable[Printable], bed_mm: Sequence[float], spacing_mm: floa
     """Pack parts on plates, sorted by material; as many plates as it takes.
 
     Parts are turned by 90° as needed; one that is too long for that lies at another angle. What a plate has lies in the
-    middle of the bed.
-
-    Parameters
-    ----------
-    parts
-        The parts, each with the quantity that is needed.
-    bed_mm
-        Usable bed (x, y, z).
-    spacing_mm
-        Distance that parts keep from each other.
+    middle of the usable bed (x, y, z); parts keep a distance from each other.
     """
     by_material: dict[str, list[Printable]] = {}
     for part in sorted(parts, key=lambda part: part.name):
@@ -143,8 +134,7 @@ def _packer(sizes: Sequence[tuple[int, ...]], bed_mm: Sequence[float], spacing_m
 def _beside(plate: Iterable[Any], bed_mm: Sequence[float], spacing_mm: float) -> Array:
     """Return how much of the bed (2,) is left on either side of what a plate has, in whole steps."""
     used = np.max([(rect.x + rect.width, rect.y + rect.height) for rect in plate], axis=0) / STEPS_PER_MM - spacing_mm
-    left: Array = np.floor((np.asarray(bed_mm[:2]) - used) / 2.0 * STEPS_PER_MM) / STEPS_PER_MM
-    return left
+    return np.asarray(np.floor((np.asarray(bed_mm[:2]) - used) / 2.0 * STEPS_PER_MM) / STEPS_PER_MM)
 
 
 def _angle_deg(part: Printable, bed_mm: Sequence[float]) -> float:

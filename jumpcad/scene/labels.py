@@ -10,8 +10,8 @@ from types import MappingProxyType
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from jumpcad.scene.camera import Camera
-from jumpcad.solids.outline import Region, text
+from jumpcad.scene.renderer import Camera
+from jumpcad.solids.outline import text
 from jumpcad.transforms import Array
 
 STRIPE_M = 0.1
@@ -25,18 +25,9 @@ WHITE = 255
 
 
 def with_floor(picture: Image.Image, camera: Camera, frame_m: Array, caption: str) -> Image.Image:
-    """Return a picture with a floor behind the robot and a caption in its upper left corner.
+    """Return a picture on white with a floor behind the robot and a caption in its upper left corner.
 
-    Parameters
-    ----------
-    picture
-        On a white background, as seen by the camera.
-    camera
-        The picture's camera.
-    frame_m
-        Points (n, 3) that the picture shows; the floor lies below them at z = 0.
-    caption
-        One line.
+    `frame_m` are points (n, 3) that the picture shows; the floor lies below them at z = 0.
     """
     floor = Image.new("RGB", picture.size, (WHITE,) * 3)
     pen = ImageDraw.Draw(floor)
@@ -68,21 +59,10 @@ def labelled(
 ) -> Image.Image:  # fmt: skip
     """Return a picture between two margins with labels.
 
-    Parameters
-    ----------
-    picture
-        Without margins.
-    names
-        One for each part (n).
-    at_px, place_px
-        Where each part is drawn, and where it goes (n, 2), in pixels of the picture; an arrow joins them where they
-        are apart.
-    margin_px
-        Width of either margin.
-    turns_px
-        Curves (k, 2), drawn as arrows: senses of rotation.
-    compass
-        Unit vectors (2,) of the picture by the names of their directions, drawn as arrows in the lower left corner.
+    One name for each part (n); `at_px` and `place_px` (n, 2) are where each part is drawn, and where it goes, in pixels
+    of the picture without margins: an arrow joins them where they are apart. `turns_px` are curves (k, 2), drawn as
+    arrows: senses of rotation. `compass` has unit vectors (2,) of the picture by the names of their directions, drawn
+    as arrows in the lower left corner.
     """
     size = (picture.width + 2 * margin_px, picture.height)
     sheet = Image.new("RGB", size, (255, 255, 255))
@@ -144,12 +124,8 @@ def _spread(wanted: list[float], height: int) -> list[float]:
     return placed
 
 
-def _letters(name: str) -> Region:
-    return text(name, CAPITAL_PX)
-
-
 def _width(name: str) -> float:
-    return float(_letters(name).bounds()[2])
+    return float(text(name, CAPITAL_PX).bounds()[2])
 
 
 def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool) -> None:
@@ -157,7 +133,7 @@ def _words(draw: ImageDraw.ImageDraw, name: str, x: float, y: float, left: bool)
     start = x - _width(name) if left else x
     outlines = [
         FINE * np.column_stack([start + contour[:, 0], y + CAPITAL_PX / 2.0 - contour[:, 1]])
-        for contour in _letters(name).to_polygons()
+        for contour in text(name, CAPITAL_PX).to_polygons()
     ]
     # y points down: outlines run clockwise, holes counter-clockwise; holes are drawn last
     for points in sorted(outlines, key=_turn):

@@ -57,23 +57,11 @@ X, Y, NEARNESS, SHADE = range(4)
 
 
 def rasterized(corners: Array, size: tuple[int, int]) -> tuple[npt.NDArray[np.int32], Array, Array]:
-    """Return the visible triangle at every pixel, with its nearness and shade there.
+    """Return the visible triangle at every pixel, -1 where there is none, with its nearness and shade there, else 0.
 
-    Parameters
-    ----------
-    corners
-        The corners (n, 3, 4) of triangles, counter-clockwise as seen from outside: x (pixels, to the right), y (pixels,
-        down), nearness (1 over the distance, 1/m), shade. A triangle with a corner behind the camera, where nearness
-        is negative, is left out.
-    size
-        Width and height in pixels.
-
-    Returns
-    -------
-    number
-        Index of the triangle at every pixel (height, width); -1 where there is none.
-    nearness, shade
-        Those of that triangle at the pixel's centre (height, width); 0 where there is none.
+    All three have shape (height, width). The corners (n, 3, 4) of triangles, counter-clockwise as seen from outside,
+    are x (pixels, to the right), y (pixels, down), nearness (1 over the distance, 1/m), shade. A triangle with a corner
+    behind the camera, where nearness is negative, is left out. `size` is width and height in pixels.
     """
     width, height = size
     ahead, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]

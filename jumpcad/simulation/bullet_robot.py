@@ -21,23 +21,10 @@ JOINTS = [LEG, FOOT_LINK, FRONT]
 
 
 class BulletRobot:
-    """A robot as it is released.
+    """A robot as it is released, by its `number` in the client of PyBullet's module.
 
-    Parameters
-    ----------
-    bullet, client
-        The module, and the number of the client.
-    mechanism, settings
-        What is made, and how it is simulated.
-
-    Attributes
-    ----------
-    number
-        Of the robot in the client.
-    axes
-        Rotations (4, 3, 3) from the bodies' principal axes, in which Bullet keeps them, to their frames; base first.
-    joint_damping_nms_per_rad, dry_nm
-        Viscous damping of every joint, and dry friction of each link's (N·m).
+    `axes` are rotations (4, 3, 3) from the bodies' principal axes, in which Bullet keeps them, to their frames; base
+    first. Every joint has viscous damping, each link's dry friction is `dry_nm`.
     """
 
     def __init__(self, bullet: Any, client: int, mechanism: Mechanism, settings: Settings) -> None:
@@ -71,26 +58,17 @@ class BulletRobot:
         joints = _joints(mechanism)
         return int(
             bullet.createMultiBody(
-                bodies[0].mass_kg,
-                shapes[0],
-                box,
-                basePosition=release.body_position_m.tolist(),
-                baseOrientation=_xyzw_about_y(release.body_pitch_rad),
-                baseInertialFramePosition=positions[0],
-                baseInertialFrameOrientation=orientations[0],
-                linkMasses=[body.mass_kg for body in bodies[1:]],
-                linkCollisionShapeIndices=shapes[1:],
-                linkVisualShapeIndices=[box] * len(LINKS),
+                bodies[0].mass_kg, shapes[0], box, basePosition=release.body_position_m.tolist(),
+                baseOrientation=_xyzw_about_y(release.body_pitch_rad), baseInertialFramePosition=positions[0],
+                baseInertialFrameOrientation=orientations[0], linkMasses=[body.mass_kg for body in bodies[1:]],
+                linkCollisionShapeIndices=shapes[1:], linkVisualShapeIndices=[box] * len(LINKS),
                 linkPositions=[joint.origin_m.tolist() for joint in joints],
                 linkOrientations=[_xyzw_about_y(joint.rest_angle_rad) for joint in joints],
-                linkInertialFramePositions=positions[1:],
-                linkInertialFrameOrientations=orientations[1:],
-                linkParentIndices=[0, 1, 0],
-                linkJointTypes=[bullet.JOINT_REVOLUTE] * len(LINKS),
-                linkJointAxis=[[0.0, 1.0, 0.0]] * len(LINKS),
-                physicsClientId=client,
+                linkInertialFramePositions=positions[1:], linkInertialFrameOrientations=orientations[1:],
+                linkParentIndices=[0, 1, 0], linkJointTypes=[bullet.JOINT_REVOLUTE] * len(LINKS),
+                linkJointAxis=[[0.0, 1.0, 0.0]] * len(LINKS), physicsClientId=client,
             )
-        )
+        )  # fmt: skip
 
     def _contact_shape(self, body: Body) -> int:
         """Return a compound of the body's contact spheres, or none."""

@@ -53,18 +53,10 @@ class Flight:
 def flight(
     mechanism: Mechanism, mechanics: Mechanics, loaded: State, takeoff: State, path: Ballistics, damping_nms: float
 ) -> Flight:
-    """Return the flight that follows from the state at take-off.
+    """Return the flight that follows from the state at take-off, when the last contact ends, rising.
 
-    Parameters
-    ----------
-    loaded
-        The robot as it stands with its springs loaded, against which the pitch counts.
-    takeoff
-        Its state when the last contact ends, rising.
-    path
-        Of its centre of mass.
-    damping_nms
-        Of each of the four joints, over their rates: what stills a leg that swings freely.
+    The pitch counts against the robot as it stands with its springs loaded. `path` is that of its centre of mass;
+    `damping_nms` of each of the four joints, over their rates, stills a leg that swings freely.
     """
     about_y = mechanics.inertia_kg_m2[:, 1, 1]
     velocity, rate = points(takeoff.velocity_m_s[:, [0, 2]]), takeoff.angular_rad_s[:, 1]
@@ -121,19 +113,10 @@ def seen_flight(
 def obstacles(bottoms_m: Complex, centre_m: Array, nose_m: float) -> tuple[float, float, float, float]:
     """Return the last four figures of a `Flight`: what it passes over and lands on.
 
-    Parameters
-    ----------
-    bottoms_m
-        Lowest points of the robot's parts, x + iz (n, parts), at n moments up to the touchdown.
-    centre_m
-        Where the centre of mass is along the way (n,).
-    nose_m
-        Where the standing robot ends in front: no obstacle is nearer.
-
-    Notes
-    -----
-    All parts have passed a bar by the touchdown. The edge of a step lies below whatever passes it while the robot
-    rises, and before the centre of mass when the robot, falling, comes down to its height.
+    Lowest points of the robot's parts, x + iz (n, parts), and the centre of mass along the way (n,) are given at n
+    moments up to the touchdown; the standing robot ends at `nose_m` in front: no obstacle is nearer. All parts have
+    passed a bar by the touchdown. The edge of a step lies below whatever passes it while the robot rises, and before
+    the centre of mass when the robot, falling, comes down to its height.
     """
     if len(bottoms_m) < 2 or not np.ptp(bottoms_m.real, axis=0).any():  # straight up: over nothing
         return 0.0, 0.0, 0.0, 0.0

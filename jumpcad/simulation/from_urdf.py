@@ -65,18 +65,16 @@ def robot_from_urdf(path: Path) -> Mechanism:
         links, joints = _named(root, "link", BODY_NAMES), _named(root, "joint", JOINTS)
         loop = extra.loop
         mechanism = Mechanism(
-            name=_text(root, "name"),
-            design=design,
+            name=_text(root, "name"), design=design,
             bodies={name: _body(links[name], extra.surfaces) for name in BODY_NAMES},
             joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
             loops=(Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
-            springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),),
-            foot_depth_m=extra.foot_depth_m,
+            springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
             stop=Stop(**extra.stop.model_dump()) if extra.stop else None,
             roller_off=RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
             friction=Friction(**extra.friction.model_dump()) if extra.friction else None,
             outline_m={name: points(np.array(corners)) for name, corners in extra.outline_m.items()},
-        )
+        )  # fmt: skip
         _require_mechanism(mechanism)
     return mechanism
 
@@ -131,7 +129,14 @@ def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
     tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
     _require_inertia(name, mass_kg, tensor)
     axes = Rotation.from_euler("xyz", rpy).as_matrix()
-    contacts = tuple(_contact(item, name, surfaces) for item in link.findall("collision") if not _is_cage(item))
+    contacts = tuple(
+        _contact(item, name, surfaces)
+        for item in link.findall("collision")
+        if not (
+            item.get("name", "").startswith(CAGE)
+            and item.find("geometry/cylinder") is not None  # no more than its mass
+        )
+    )
     if len({contact.name for contact in contacts}) < len(contacts):
         raise JumpcadError(f"{name}: two collisions have the same name")
     return Body(name, mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes), contacts)
@@ -152,11 +157,6 @@ def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
             f"gyration of {gyration_m:g} m: moments must be more than 0, none more than the other two together, the "
             f"radius {GYRATION_M[0]:g}…{GYRATION_M[1]:g}"
         )
-
-
-def _is_cage(item: ET.Element) -> bool:
-    """Return whether a collision is a cylinder of the cage, which up to the touchdown is no more than its mass."""
-    return item.get("name", "").startswith(CAGE) and item.find("geometry/cylinder") is not None
 
 
 def _contact(item: ET.Element, body: str, surfaces: dict[str, Any]) -> ContactSphere:

@@ -238,8 +238,7 @@ class Mechanics:
 
     def frame_positions_m(self, state: State) -> Array:
         """Return the origins (b, 3) of the bodies' frames."""
-        origins: Array = state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m)
-        return origins
+        return np.asarray(state.com_m - np.einsum("bij,bj->bi", state.rotation, self.com_in_body_m))
 
 
 class StopPad:

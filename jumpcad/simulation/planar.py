@@ -95,12 +95,10 @@ class PlanarWorld:
         velocity = speed.ankle + (place1 * speed.leg - 1j * place * speed.foot) * turn
         still = np.zeros(len(BODY_NAMES))
         return State(
-            np.column_stack([com.real, self._aside_m, com.imag]),
-            _about_y(directions),
+            np.column_stack([com.real, self._aside_m, com.imag]), _about_y(directions),
             np.column_stack([velocity.real, still, velocity.imag]),
-            np.column_stack([still, speed.foot + np.array(links.turn1) * speed.leg, still]),
-            (moment.leg_rad,),
-        )
+            np.column_stack([still, speed.foot + np.array(links.turn1) * speed.leg, still]), (moment.leg_rad,),
+        )  # fmt: skip
 
 
 class PlanarRun(Run):

@@ -146,11 +146,9 @@ def response(inertia: Inertia, ankle: complex, foot: float, leg: float) -> Plana
 def gains_of(inertia: Inertia) -> Gains:
     """Return the responses to unit impulses."""
     return Gains(
-        response(inertia, 1.0 + 0j, 0.0, 0.0),
-        response(inertia, 1j, 0.0, 0.0),
-        response(inertia, 0j, 1.0, 0.0),
+        response(inertia, 1.0 + 0j, 0.0, 0.0), response(inertia, 1j, 0.0, 0.0), response(inertia, 0j, 1.0, 0.0),
         response(inertia, 0j, 0.0, 1.0),
-    )
+    )  # fmt: skip
 
 
 @compiled
@@ -337,11 +335,9 @@ def settle(
         hold = -free.leg / by_leg.leg
         free = plus(free, by_leg, hold)
         gains = Gains(
-            plus(by_x, by_leg, -by_x.leg / by_leg.leg),
-            plus(by_z, by_leg, -by_z.leg / by_leg.leg),
-            plus(by_foot, by_leg, -by_foot.leg / by_leg.leg),
-            by_leg,
-        )
+            plus(by_x, by_leg, -by_x.leg / by_leg.leg), plus(by_z, by_leg, -by_z.leg / by_leg.leg),
+            plus(by_foot, by_leg, -by_foot.leg / by_leg.leg), by_leg,
+        )  # fmt: skip
     contact = contact_of(model, ground, gains, free, last)
     up, turning = contact.first_ns + contact.second_ns, turning_impulse(model, ground, contact)
     after = plus(plus(plus(free, gains.x, contact.along_ns), gains.z, up), gains.foot, turning)
@@ -420,11 +416,9 @@ def _more_losses(
     ground_j = contact.along_ns * middle.ankle.real + up * middle.ankle.imag + turning * middle.foot
     return Losses(
         losses.damping_j + 2.0 * ground.half_s * model.damping_nms_per_rad * damped * middle.leg * middle.leg,
-        losses.friction_j - friction_ns * middle.leg,
-        losses.slip_j - along,
-        losses.impact_j - (ground_j - along),
+        losses.friction_j - friction_ns * middle.leg, losses.slip_j - along, losses.impact_j - (ground_j - along),
         losses.stop_j - stop_ns * middle.leg,
-    )
+    )  # fmt: skip
 
 
 @compiled

@@ -63,13 +63,7 @@ class Facts(Record):
 
 
 def load_facts(entered: Mapping[str, float] | None = None) -> Facts:
-    """Return the shipped facts, with figures that a user read in the papers in place of theirs.
-
-    Parameters
-    ----------
-    entered
-        Values by `ROBOT.FIGURE`.
-    """
+    """Return the shipped facts, with values by `ROBOT.FIGURE` that a user read in the papers in place of theirs."""
     path = templates_folder() / "validation.toml"
     data, text = read_toml(path)
     for key, value in (entered or {}).items():

@@ -186,14 +186,12 @@ class Run:
         rotations = np.concatenate([state.rotation for _, state in self._records])
         order = self.mechanism.order
         return Trajectory(
-            order,
-            np.array([time for time, _ in self._records]),
+            order, np.array([time for time, _ in self._records]),
             np.stack([self.mechanics.frame_positions_m(state) for _, state in self._records]),
             Rotation.from_matrix(rotations).as_quat().reshape(-1, len(order), 4),
-            np.array([energy.kinetic_j for energy in energies]),
-            np.array([energy.potential_j for energy in energies]),
+            np.array([energy.kinetic_j for energy in energies]), np.array([energy.potential_j for energy in energies]),
             np.array([energy.spring_j for energy in energies]),
-        )
+        )  # fmt: skip
 
     def _push_off(self) -> Takeoff | None:
         """Go on to the last contact before the robot flies; return None if it does not.
@@ -247,8 +245,9 @@ class Run:
         every = 1 if self._five_bar else max(1, round(LOOK_EVERY_S / self.settings.dt_s))
         states = [takeoff.state]
         while self.time_s < self.settings.max_time_s and self.sound:
-            if self.drag_per_m:
-                self._brake()
+            if self.drag_per_m:  # on all bodies alike, as a part of gravity: it turns nothing
+                air = drag_m_s2(mechanics.velocity_m_s(self.world.state()), self.drag_per_m)
+                self.world.pull(air - np.array([0.0, 0.0, self.settings.gravity_m_s2]))
             self._advance(every)
             state = self.world.state()
             if not self._five_bar:
@@ -262,11 +261,6 @@ class Run:
                     self.touchdown = vars(seen_flight(self.mechanism, mechanics, self.loaded, states, air_s))
                 return
             off = off or above
-
-    def _brake(self) -> None:
-        """Let air act on all bodies alike, as a part of gravity: it turns nothing."""
-        air = drag_m_s2(self.mechanics.velocity_m_s(self.world.state()), self.drag_per_m)
-        self.world.pull(air - np.array([0.0, 0.0, self.settings.gravity_m_s2]))
 
     def _advance(self, steps: int) -> float:
         """Like `World.advance`, but stop wherever the audit or the trajectory needs a state."""

@@ -11,12 +11,7 @@ from jumpcad.transforms import Array
 def overlap_volume_mm3(a: Stack, T_world_a: Array, b: Stack, T_world_b: Array) -> float:
     """Return the volume that two placed stacks share, exactly.
 
-    Parameters
-    ----------
-    a, b
-        The stacks, each in its own frame (mm).
-    T_world_a, T_world_b
-        Their poses (4, 4), lengths in mm; the two extrusion axes must be parallel (either way round).
+    Their poses (4, 4) have lengths in mm; the two extrusion axes must be parallel (either way round).
     """
     T_a_b = np.linalg.inv(T_world_a) @ T_world_b
     turn, shift = T_a_b[:3, :3], T_a_b[:3, 3]

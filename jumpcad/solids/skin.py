@@ -24,12 +24,8 @@ MAX_ROUNDS = 50  # three or four are usual
 def skin(heights_mm: Sequence[tuple[float, float]], contours_mm: Sequence[Sequence[Floats]]) -> tuple[Floats, Ints]:
     """Return vertices (n, 3) in mm and triangles (m, 3) of slabs on top of each other.
 
-    Parameters
-    ----------
-    heights_mm
-        Bottom and top of each slab, ascending; slabs may touch but not overlap.
-    contours_mm
-        For each slab its closed contours (k, 2): outlines counter-clockwise, holes clockwise.
+    Bottom and top of the slabs ascend; they may touch but not overlap. Each slab has closed contours (k, 2): outlines
+    counter-clockwise, holes clockwise.
     """
     points, edges, signs = _conforming(*_chains(contours_mm))
     levels = sorted({z for pair in heights_mm for z in pair})

@@ -23,20 +23,11 @@ NOTHING: Region = CrossSection()
 
 
 class CrossSections(NamedTuple):
-    """Cross-sections at heights (n,).
+    """Cross-sections at heights (n,): the different outlines, the number of each section, and the inset of its chamfer.
 
-    Attributes
-    ----------
-    outlines
-        The different outlines.
-    which
-        The number of each section's outline and pocket (n,): two heights have the same cross-section where it and the
-        inset are the same.
-    inset_mm
-        Insets of chamfers (n,).
-    pockets
-        The outlines that are another one less a pocket inside it, which are not among `outlines`: they are numbered
-        after these. Each is the number of the other outline and the pocket.
+    `which` (n,) numbers outline and pocket: two heights have the same cross-section where it and the inset are the
+    same. `pockets` are outlines that are another one less a pocket inside it, which are not among `outlines`: they are
+    numbered after these. Each is the number of the other outline and the pocket.
     """
 
     outlines: Sequence[Region]
@@ -111,7 +102,10 @@ def pocketed(sections: CrossSections) -> CrossSections:
         if len(numbers) > 1 and all(_is_hole(contour) for extra in more.values() for contour in extra):
             plain = next((number for number, extra in more.items() if not extra), None)
             shared = [contour for key, contour in contours[numbers[0]].items() if key in common]
-            cases |= {number: (len(outlines), _filling(extra)) for number, extra in more.items()}
+            cases |= {
+                number: (len(outlines), CrossSection([hole[::-1] for hole in extra]) if extra else NOTHING)
+                for number, extra in more.items()
+            }
             outlines.append(CrossSection(shared) if plain is None else sections.outlines[plain])
         else:
             cases |= {number: (len(outlines) + place, NOTHING) for place, number in enumerate(numbers)}
@@ -139,8 +133,3 @@ def _is_hole(contour: Array) -> bool:
     """Tell whether a contour (n, 2) is clockwise."""
     x, y = contour.T
     return float(np.dot(np.roll(x, 1), y) - np.dot(x, np.roll(y, 1))) < 0.0
-
-
-def _filling(holes: Sequence[Array]) -> Region:
-    """Return what clockwise contours (n, 2) enclose."""
-    return CrossSection([hole[::-1] for hole in holes]) if holes else NOTHING

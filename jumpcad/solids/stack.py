@@ -85,15 +85,9 @@ class Stack:
     def chamfered(self, depth_mm: float, layer_mm: float, first_layer_mm: float | None = None) -> "Stack":
         """Return the stack with the edges of its bottom face chamfered at 45° against a spreading first layer.
 
-        The chamfer is built as the printer makes it: one step a layer, each as wide as the slope is in the middle of
-        that layer. The slab at the bottom must be thicker than the chamfer is deep.
-
-        Parameters
-        ----------
-        depth_mm
-            Width of the chamfer on the bed, and its height.
-        layer_mm, first_layer_mm
-            Heights of the layers; the first is like the others unless given.
+        The chamfer is as wide on the bed as high, and built as the printer makes it: one step a layer, each as wide as
+        the slope is in the middle of that layer. The first layer is like the others unless its height is given. The
+        slab at the bottom must be thicker than the chamfer is deep.
         """
         bottom = self.slabs[0]
         if bottom.height_mm < depth_mm:

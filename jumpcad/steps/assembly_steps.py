@@ -34,33 +34,20 @@ class Tool:
 
 @dataclass(frozen=True)
 class Move:
-    """Things that take their place together.
+    """Things that take their place together, by the pattern of their names.
 
-    Attributes
-    ----------
-    parts
-        Pattern of their names.
-    along
-        A side from which they come, `head last` for screws and pins, `from outside` for toes, `from the leg`,
-        `into its notch` for a hoop of the cage, or `sideways` for a clip: from any side that is free.
-    way
-        How the path is checked. `straight`: along its whole length, on the shapes; `bent`: over the part's own size
-        only, for split pins, which pliers bring; `snapped`: likewise, sideways onto a groove; `laid`: not at all, for
-        what is soldered or flexible.
-    past
-        Pattern of parts that may be in the way, because one of the two yields.
-    through
-        Pattern of parts with a hole on the path: the picture shows what moves before it.
-    tool, reach
-        What fastens them, and the side from which the tool comes: by default `along`, else one of its values.
-    trial
-        Whether it is taken off again at the end of the step.
-    brings
-        An assembly of an earlier step that is put on as one piece.
-    retention
-        The kinds of axle retention with which this move is needed; empty: all.
-    lacks
-        Pattern of things with which this move is made in a later step.
+    They come `along` a side, `head last` for screws and pins, `from outside` for toes, `from the leg`, `into its notch`
+    for a hoop of the cage, or `sideways` for a clip: from any side that is free.
+
+    `way` is how the path is checked. `straight`: along its whole length, on the shapes; `bent`: over the part's own
+    size only, for split pins, which pliers bring; `snapped`: likewise, sideways onto a groove; `laid`: not at all, for
+    what is soldered or flexible. Parts `past` may be in the way, because one of the two yields; those `through` have a
+    hole on the path: the picture shows what moves before it.
+
+    `tool` fastens them, from the side `reach`: by default `along`, else one of its values. A `trial` is taken off again
+    at the end of the step. `brings` is an assembly of an earlier step that is put on as one piece, `retention` the
+    kinds of axle retention with which this move is needed (empty: all), `lacks` the pattern of things with which it is
+    made in a later step.
     """
 
     parts: str

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import View
 
 
 @dataclass(frozen=True)

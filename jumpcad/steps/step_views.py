@@ -8,7 +8,7 @@ import numpy as np
 
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import View
+from jumpcad.scene.renderer import View
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Move, Step, assembly_steps, travel
@@ -154,7 +154,8 @@ def _view(
         middle = corners.mean(axis=0)
         corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
-    view = inset.view if inset else _direction(step)
+    right = sum(placed.move.along == "from the right" for placed in step.placed)  # as most moves of a step come
+    view = inset.view if inset else FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
     near = "spring_left" if view.yaw_deg > 0.0 else "spring_right"
     labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step, near)
     if any(beside.values()):
@@ -208,12 +209,6 @@ def _turn(thing: Visual, pose: Array, sense: int) -> Array:
     y = np.full_like(angle, corners[:, 1].max() + 0.001)
     # about +y from z towards x: counter-clockwise as seen from the left
     return np.column_stack([middle[0] + radius * np.sin(angle), y, middle[2] + radius * np.cos(angle)])
-
-
-def _direction(step: Step) -> View:
-    """Return the view from the right if most moves of a step come from there, else from the left."""
-    right = sum(placed.move.along == "from the right" for placed in step.placed)
-    return FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
 
 
 def _apart(robot: Robot, step: Step, poses: dict[str, Array], before: list[Visual]) -> dict[str, Array]:

@@ -59,15 +59,7 @@ Table = Callable[[RobotFacts, np.random.Generator], Iterable[Row]]
 
 
 def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[dict[str, Any]]:
-    """Return every robot with its tier and figures, as plain data.
-
-    Parameters
-    ----------
-    entered
-        Figures read in the papers by the user, by `ROBOT.FIGURE`.
-    seed
-        Of all samples.
-    """
+    """Return every robot with its tier and figures, as plain data, with a user's figures by `ROBOT.FIGURE`."""
     facts = load_facts(entered)
     epfl = facts.robots["kovac-2008"]
     members = family(

@@ -65,11 +65,7 @@ def test_same_bytes_on_another_machine(small_robot: Robot, tmp_path: Path, monke
         "export(make_small_robot(), sys.argv[1])"
     )
     paths = os.pathsep.join([str(TESTS), str(ROOT)])
-    subprocess.run(
-        [sys.executable, "-c", code, str(tmp_path / "there")],
-        check=True,
-        env=environment(PYTHONPATH=paths),
-    )
+    subprocess.run([sys.executable, "-c", code, str(tmp_path / "there")], check=True, env=environment(PYTHONPATH=paths))
     assert bytes_of(tmp_path / "here") == bytes_of(tmp_path / "there")
 
 

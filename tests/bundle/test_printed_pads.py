@@ -12,7 +12,8 @@ from support.workshops import workshop_with
 from jumpcad import build, load_design, load_workshop
 from jumpcad.building.bom import bill_of_facts, bill_of_materials, mass_facts
 from jumpcad.bundle.guide.markdown import write_guide
-from jumpcad.exporters.threemf import plate_files, stl_files, threemf_files
+from jumpcad.exporters.stl import stl_files
+from jumpcad.exporters.threemf import plate_files, threemf_files
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 

@@ -12,9 +12,8 @@ from jumpcad.bundle import renders as module
 from jumpcad.bundle.renders import exploded, jump_gif
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
-from jumpcad.scene.camera import aimed
 from jumpcad.scene.labels import STRIPES
-from jumpcad.scene.renderer import paletted
+from jumpcad.scene.renderer import aimed, paletted
 from jumpcad.scene.visuals import visuals
 from jumpcad.simulation import Settings, simulate
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from support.built import built
 
-from jumpcad.bundle.drawings.spring_dxf import spring_dxfs
-from jumpcad.bundle.drawings.spring_sheet import spring_sheets
+from jumpcad.bundle.drawings.spring_sheet import spring_dxfs, spring_sheets
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -25,18 +25,6 @@ def test_what_is_bought_in_one_piece_and_seen_as_several_has_the_mass_of_the_who
         assert float(grams) == pytest.approx(sum(facts[name]["mass_g"] for name in pieces), abs=0.007)
 
 
-def test_a_printed_part_is_shown_with_its_material_file_and_mass() -> None:
-    robot = built("kenan-2.0")
-    facts = parts_facts(robot)
-    for part in robot.parts:
-        assert facts[part.name] == {
-            "label": part.name.replace("_", " "),
-            "material": part.material,
-            "file": f"stl/{part.name}.stl",
-            "mass_g": round(1000.0 * part.mass.mass_kg, 3),
-        }
-
-
 def test_data_in_a_page_can_neither_end_their_script_nor_begin_markup() -> None:
     """HTML ends a script at `</script`, XML knows `&`; both read JSON's escapes as the same characters."""
     data = {"a <b>": "</script><!-- & -->"}

@@ -9,7 +9,7 @@ import ezdxf
 import numpy as np
 import pytest
 
-from jumpcad.exporters.dxf import MILLIMETRES, write_dxf, write_dxfs
+from jumpcad.exporters.dxf import MILLIMETRES, dxf_files, write_dxf
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import disc, hole, rectangle
 
@@ -56,8 +56,8 @@ def test_a_sheet_is_the_same_text_whatever_the_hashes_of_strings() -> None:
 
 
 def test_plates_are_drawn_with_their_axle_holes_and_their_names(kenan: Robot) -> None:
-    files = write_dxfs(kenan)
-    assert set(files) == {"body_plate_left", "body_plate_right"}
+    files = dict(dxf_files(kenan))
+    assert set(files) == {"dxf/body_plate_left.dxf", "dxf/body_plate_right.dxf"}
     assert kenan.layout is not None
     for drawn in files.values():
         document = read(drawn)
@@ -70,4 +70,4 @@ def test_plates_are_drawn_with_their_axle_holes_and_their_names(kenan: Robot) ->
             gaps = np.linalg.norm(np.array(centres)[:, None] - np.array(centres)[None], axis=2)
             assert np.abs(gaps - apart).min() < 0.01
         assert enclosed_mm2(document, "ENGRAVE") > 10.0
-    assert files == write_dxfs(kenan)
+    assert files == dict(dxf_files(kenan))

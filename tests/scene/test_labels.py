@@ -4,14 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from jumpcad.scene.labels import (
-    EDGE_PX,
-    ROW_PX,
-    _rows,
-    _spread,
-    _width,
-    labelled,
-)
+from jumpcad.scene.labels import EDGE_PX, ROW_PX, _rows, _spread, _width, labelled
 
 
 @pytest.mark.parametrize("wanted", [[], [5.0], [50.0, 51.0, 52.0, 53.0], [380.0, 390.0, 399.0], [10.0, 200.0, 398.0]])

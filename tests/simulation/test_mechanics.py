@@ -12,11 +12,12 @@ from support.built import built
 from support.flights import Flight
 from support.machines import let_go
 
+from jumpcad.exporters.mjcf import SUBSTEPS
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot.robot import Robot
-from jumpcad.settings import Settings
-from jumpcad.simulation import simulate
+from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named
 from jumpcad.simulation.mechanics import Mechanics, State, ballistics, drag_per_m, loaded_state
 from jumpcad.transforms import Array
@@ -213,3 +214,20 @@ def test_air_acts_on_range_time_and_touchdown_in_every_engine(engine: str) -> No
     assert braked.touchdown_distance_m < 0.85 * free.touchdown_distance_m
     assert braked.takeoff_speed_m_s == free.takeoff_speed_m_s
     assert braked.turn_rate_deg_s == free.turn_rate_deg_s
+
+
+BEYOND_RAD = 0.5
+"""Past the stop: so far that a pad would push much more than is needed to halt the leg."""
+
+
+@pytest.mark.parametrize(("engine", "substeps"), [("pybullet", 1), ("mujoco", SUBSTEPS)])
+@pytest.mark.parametrize("dt_s", [0.0005, 0.0001])
+def test_the_leg_is_halted_within_one_of_the_engines_own_steps(engine: str, substeps: int, dt_s: float) -> None:
+    """By the leg's inertia times its rate over the step."""
+    needs.package(engine)
+    robot, rate = built("kenan-2.0"), 1e-3
+    assert robot.stop is not None
+    with engine_named(engine).world(robot, Settings(dt_s=dt_s)) as world:
+        held = world._pad.torque_nm(robot.stop.angle_rad + BEYOND_RAD, rate)
+    inertia = leg_inertia_kg_m2(robot, robot.stop.angle_rad)
+    assert held == pytest.approx(inertia * rate * substeps / dt_s)

@@ -110,10 +110,7 @@ def test_a_body_that_comes_down_is_said(flights: list[Flight]) -> None:
     assert "body_contact" not in [one.name for one in run.findings()]
 
 
-@pytest.mark.parametrize(
-    ("key", "value"),
-    [("restitution", 0.5), ("rolling_friction_m", 0.01)],
-)
+@pytest.mark.parametrize(("key", "value"), [("restitution", 0.5), ("rolling_friction_m", 0.01)])
 def test_what_the_plane_does_not_have_is_refused(kenan: Robot, key: str, value: float) -> None:
     with pytest.raises(JumpcadError, match=f"{key} = {value}.*pybullet"):
         simulate(kenan, Settings(**{key: value}), "planar")

@@ -9,14 +9,6 @@ from jumpcad.solids.outline import rectangle
 from jumpcad.solids.slab import Slab, rounded_z
 
 
-def test_a_slab_without_inset_and_pocket_extrudes_its_outline() -> None:
-    outline = rectangle((10.0, 6.0))
-    slab = Slab(0.0, 1.0, outline)
-    assert slab.region is outline
-    assert (slab.inset_mm, slab.number, slab.pocket_number) == (0.0, 0, 0)
-    assert slab.pocket.area() == 0.0
-
-
 @pytest.mark.parametrize(("inset", "area"), [(1.0, 8.0 * 4.0), (0.25, 9.5 * 5.5), (2.9, 4.2 * 0.2), (3.1, 0.0)])
 def test_an_inset_sets_every_side_back_and_leaves_corners_sharp(inset: float, area: float) -> None:
     """Of a rectangle of 10 x 6 mm: less twice the inset to either side."""

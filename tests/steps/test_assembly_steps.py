@@ -206,10 +206,7 @@ def test_what_is_laid_on_a_tray_comes_square_to_it() -> None:
 def test_what_is_glued_together_is_listed_where_it_is_glued() -> None:
     """Bars come with the ends into which they are glued; the glued front link is put on as one piece."""
     steps = assembly_steps(built("kenan-2.0", leg="carbon-strip-3x6"))
-    glued = {
-        "main_leg_bar": {"main_leg", "main_leg_end"},
-        "front_link_bar": {"front_link_1", "front_link_2"},
-    }
+    glued = {"main_leg_bar": {"main_leg", "main_leg_end"}, "front_link_bar": {"front_link_1", "front_link_2"}}
     for bar, ends in glued.items():
         (step,) = (step for step in steps if bar in {thing.name for thing in step.added})
         assert ends <= {thing.name for thing in step.added}

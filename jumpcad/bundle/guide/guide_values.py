@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from jumpcad.building.bom import Bill
-from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.bundle.drawings.spring_sheet import scale_in_words
-from jumpcad.bundle.drawings.wiring import wires
+from jumpcad.bundle.drawings.wiring import soldering_svg, wires
 from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, early_torque_share, least_energy_share, torque_shares
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
@@ -100,17 +99,13 @@ def _has(robot: Robot) -> dict[str, Any]:
     pads = {one.name for one in printed_pads(robot.hardware, robot.workshop)}
     button = bool(layout.electronics.controller.button)
     return {
-        "retention": layout.retention,
-        "spring_boss": layout.spring_boss_mm > 0.0,
-        "toes_apart": layout.toes_apart,
-        "idler": layout.idler_mm is not None,
-        "balance_lead": "tie_balance_lead" in names,
+        "retention": layout.retention, "spring_boss": layout.spring_boss_mm > 0.0, "toes_apart": layout.toes_apart,
+        "idler": layout.idler_mm is not None, "balance_lead": "tie_balance_lead" in names,
         "nose_pads": any(name.startswith("nose_pad") for name in names),
-        "printed_sole": any(name.startswith("nose_pad") for name in pads),
-        "printed_stop": "stop_pad" in pads,
+        "printed_sole": any(name.startswith("nose_pad") for name in pads), "printed_stop": "stop_pad" in pads,
         # without a button USB stays in: where it feeds the driver too, nothing is to be read at the switch
         "read_current": "switch" in names and (button or layout.electronics.regulator is not None),
-    }
+    }  # fmt: skip
 
 
 def _springs(robot: Robot) -> dict[str, Any]:

@@ -49,55 +49,32 @@ def operation_values(robot: Robot) -> dict[str, Any]:
     low, high = pin_share(wiring)
     free_j, bears_j = free_release_j(robot)
     return {
-        "name": robot.name,
-        "program": program,
-        "motor": train.motor,
-        "battery": battery,
-        "controller": controller,
-        "parts": chosen.components,
-        "regulator": chosen.regulator,
-        "diode": chosen.diode,
-        "charged_by_usb": chosen.charged_by_usb,
-        "usb_side": robot.layout.fittings.usb_side,
-        "charge_rate": rate,
-        "charge_h": rate and FULL_AFTER / rate,
-        "outside_ma": min(battery.capacity_mah, battery.bears_ma),
-        "stored_v": STORED_V * battery.cells,
-        "dead_v": DEAD_CELL_V * battery.cells,
-        "left_on_h": battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w,
-        "full_v": supply.full_v,
-        "nominal_v": supply.nominal_v,
-        "sensor_pin": wiring.pins.get("ready", "its pin of the sensor"),
-        "divider_pin": wiring.pins.get("battery", ""),
-        "divider_share": (low, high),
-        "state_off_v": state_off_v(wiring, supply.nominal_v),
-        "resistors": wiring.resistors,
-        "opens": bool(wiring.ready_level),
-        "contact": wiring.contact,
+        "name": robot.name, "program": program, "motor": train.motor, "battery": battery, "controller": controller,
+        "parts": chosen.components, "regulator": chosen.regulator, "diode": chosen.diode,
+        "charged_by_usb": chosen.charged_by_usb, "usb_side": robot.layout.fittings.usb_side, "charge_rate": rate,
+        "charge_h": rate and FULL_AFTER / rate, "outside_ma": min(battery.capacity_mah, battery.bears_ma),
+        "stored_v": STORED_V * battery.cells, "dead_v": DEAD_CELL_V * battery.cells,
+        "left_on_h": battery.capacity_mah / 1000.0 * battery.voltage_v / supply.boards_w, "full_v": supply.full_v,
+        "nominal_v": supply.nominal_v, "sensor_pin": wiring.pins.get("ready", "its pin of the sensor"),
+        "divider_pin": wiring.pins.get("battery", ""), "divider_share": (low, high),
+        "state_off_v": state_off_v(wiring, supply.nominal_v), "resistors": wiring.resistors,
+        "opens": bool(wiring.ready_level), "contact": wiring.contact,
         "battery_pads": controller.with_function("battery"),
         "driver_supply": [str(one) for _, one, end, *_ in cuts if end.part == "capacitor" and one.part == "driver"],
         "motor_plus": next((str(one) for _, one, end, *_ in cuts if (end.part, end.pin) == ("motor", "+")), "motor +"),
         "motor_wire_mm": max((mm for *_, end, _, mm in cuts if end.part == "motor"), default=0.0),
         # a bench supply feeds the controller only if its own button starts it: else USB does
         "boards_a": boards_a if controller.button else boards_beside_a(chosen),
-        "free_a": free_a + (boards_a if controller.button else boards_beside_a(chosen)),
-        "wind_s": train.winding_s,
-        "wind_j": train.electrical_j,
-        "free_rpm": free.no_load_rpm,
-        "dry_s": 2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0),
-        "after_ms": AFTER_RELEASE_MS,
-        "landing_s": LANDING_MS / 1000.0,
-        "delay_s": BUTTON_DELAY_MS / 1000.0,
-        "stroke_deg": math.degrees(cam.law.compression_rad),
-        "lift_deg": math.degrees(cam.law.lift_rad),
+        "free_a": free_a + (boards_a if controller.button else boards_beside_a(chosen)), "wind_s": train.winding_s,
+        "wind_j": train.electrical_j, "free_rpm": free.no_load_rpm,
+        "dry_s": 2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0), "after_ms": AFTER_RELEASE_MS,
+        "landing_s": LANDING_MS / 1000.0, "delay_s": BUTTON_DELAY_MS / 1000.0,
+        "stroke_deg": math.degrees(cam.law.compression_rad), "lift_deg": math.degrees(cam.law.lift_rad),
         "worn_deg": math.degrees(robot.release.worn_rad),
         "pull_n": 2.0 * robot.layout.drive.spring.torque_nmm / robot.design.carrying_link_mm,
-        "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.drawn.loose_mm,
-        "box_mm": _box_mm(robot),
-        "free_j": free_j,
-        "bears_j": bears_j,
-        "preloaded": robot.layout.stop_preload_rad > 0.0,
-    }
+        "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.drawn.loose_mm, "box_mm": _box_mm(robot),
+        "free_j": free_j, "bears_j": bears_j, "preloaded": robot.layout.stop_preload_rad > 0.0,
+    }  # fmt: skip
 
 
 def _box_mm(robot: Robot) -> tuple[float, float] | None:
@@ -105,7 +82,7 @@ def _box_mm(robot: Robot) -> tuple[float, float] | None:
     cage = robot.layout.of(Cage)
     if cage is None:
         return None
-    (rear, front), (low, high) = cage.bars, robot.layout.lateral.outside
+    (rear, front), (low, high) = cage.bars, robot.layout.lateral.outside  # fmt: skip
     between = float(front.place_mm[0] - rear.place_mm[0]) - 2.0 * BOX_FREE_MM
     beside = max(arc.radius_mm for arc in cage.arcs) - (high - low) / 2.0 + BOX_FREE_MM
     return 10.0 * math.floor(between / 10.0), 10.0 * math.ceil(beside / 10.0)

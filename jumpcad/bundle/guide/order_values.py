@@ -56,19 +56,13 @@ def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
             kind: sum(1000.0 * one.item.mass_kg for one in pads if one.pad.description == kind)
             for kind in sorted({one.pad.description for one in pads})
         },
-        "rods": _rods(robot, bill),
-        "standoffs": _standoffs(bill),
-        "strips": _strips(bill),
-        "bars": _bars(robot, bill),
-        "cage": _cage(robot),
-        "there": "".join(f"|{item.name}" for item in bill.items if not item.ordered),
-        "strap_mm": strap_mm(robot),
-        "boards": chosen.boards,
-        "slide_switch": _switch(robot),
+        "rods": _rods(robot, bill), "standoffs": _standoffs(bill), "strips": _strips(bill), "bars": _bars(robot, bill),
+        "cage": _cage(robot), "there": "".join(f"|{item.name}" for item in bill.items if not item.ordered),
+        "strap_mm": strap_mm(robot), "boards": chosen.boards, "slide_switch": _switch(robot),
         "screw_axles": _screw_axles(robot) if layout.retention == "nuts" else None,
         "pin_rod_mm": math.floor(2.0 * (layout.pin_hole.diameter_mm - ROOM_MM)) / 2.0,
         "usb_body_mm": usb and tuple(side - ROOM_MM for side in usb),
-    }
+    }  # fmt: skip
 
 
 def _cage(robot: Robot) -> dict[str, Any] | None:
@@ -87,10 +81,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
         left[index:index] = [1000.0 * rod_m] * (index == len(left))
         left[index] -= length + SAW_MM
     return {
-        "rod": cage.rod,
-        "cut": cut,
-        "rods": len(left),
-        "rod_m": rod_m,
+        "rod": cage.rod, "cut": cut, "rods": len(left), "rod_m": rod_m,
         "bar_mm": {
             part.name.removeprefix("cage_bar_"): float(np.ptp(part.drawing.shape.bounds_mm[:, 0]))
             for part in robot.parts
@@ -103,7 +94,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
         "bow": any(bar.post_mm for bar in cage.bars),
         "socket_mm": SOCKET_MM,
         "push_n": cage.rod.bending_nmm2 / cage.tightest_mm**2,
-    }
+    }  # fmt: skip
 
 
 def strap_mm(robot: Robot) -> float:

@@ -18,8 +18,8 @@ from jumpcad.files import templates_folder
 PRESENTATION = (
     "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/dxf.",
     "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.", "exporters/step.",
-    "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "printing/plates.",
-    "printing/prusaslicer.", "remedies.", "scene/camera.", "scene/labels.", "scene/raster.", "scene/renderer.",
+    "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "printing/plates.",
+    "printing/prusaslicer.", "remedies.", "scene/labels.", "scene/raster.", "scene/renderer.",
     "search/report/", "steps/step_", "studio/", "templates/", "validation/",
 )  # fmt: skip
 """Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""
