@@ -99,13 +99,9 @@ class TrainLimits:
 
     def beside(self, motor: Motor) -> Self:
         """Return the limits with those that a motor's shaft and socket set."""
-        root = motor.shaft_mm / 2.0 + self.shaft_wall_mm
-        distance = self.cam_room_mm + min(socket_half_mm(motor))
-        return replace(
-            self,
-            pinion_root_min_mm=max(self.pinion_root_min_mm, root),
-            motor_distance_min_mm=max(self.motor_distance_min_mm, distance),
-        )
+        root = max(self.pinion_root_min_mm, motor.shaft_mm / 2.0 + self.shaft_wall_mm)
+        distance = max(self.motor_distance_min_mm, self.cam_room_mm + min(socket_half_mm(motor)))
+        return replace(self, pinion_root_min_mm=root, motor_distance_min_mm=distance)
 
 
 POSITIONS = 201

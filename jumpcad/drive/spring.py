@@ -12,7 +12,7 @@ from typing import Literal
 
 from jumpcad.catalogue import Wire
 from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, free_arm_angle_rad
-from jumpcad.findings import Basis, Finding, at_most, lower
+from jumpcad.findings import Basis, Finding, Remedy, at_most, lower
 from jumpcad.mechanism.model import Spring
 
 BASIS = {
@@ -158,29 +158,16 @@ def torsion_spring(
     stress = inner_fibre(arms.mean_mm / d) * plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d)
     allowable = limits.stress_share * tensile_mpa
     volume = math.pi / 4 * d**2 * (math.pi * arms.mean_mm * turns + 2 * (arms.lever_mm + ARM_BEYOND_MM))
+    message = f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa"
+    ways: Remedy = lower("stiffness_nmm_per_deg", "compression_ratio")
+    if stock:
+        ways = (*lower("compression_ratio"), "choose another bought.spring with thicker wire")
     return TorsionSpring(
-        arms=arms,
-        turns=turns,
-        stiffness_nm_per_rad=on_leg.stiffness_nm_per_rad / 2,
-        preload_rad=on_leg.preload_rad,
-        wound_rad=wound,
-        plate_pin_rad=pins_rad[0],
-        leg_pin_rad=pins_rad[1],
-        body_length_mm=d * (loaded_turns + 1),
-        mandrel_mm=arms.mean_mm * turns / loaded_turns - d - limits.mandrel_clearance_mm,
-        stress_mpa=stress,
-        allowable_mpa=allowable,
-        tensile_mpa=tensile_mpa,
-        mass_g=wire.density_g_cm3 * volume / 1000,
-        findings=(
-            at_most(
-                "spring_stress", stress, allowable, "MPa",
-                f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa",
-                lower("stiffness_nmm_per_deg", "compression_ratio") if not stock else
-                (*lower("compression_ratio"), "choose another bought.spring with thicker wire"),
-            ),
-        ),
-        stock=stock,
+        arms=arms, turns=turns, stiffness_nm_per_rad=on_leg.stiffness_nm_per_rad / 2, preload_rad=on_leg.preload_rad,
+        wound_rad=wound, plate_pin_rad=pins_rad[0], leg_pin_rad=pins_rad[1], body_length_mm=d * (loaded_turns + 1),
+        mandrel_mm=arms.mean_mm * turns / loaded_turns - d - limits.mandrel_clearance_mm, stress_mpa=stress,
+        allowable_mpa=allowable, tensile_mpa=tensile_mpa, mass_g=wire.density_g_cm3 * volume / 1000,
+        findings=(at_most("spring_stress", stress, allowable, "MPa", message, ways),), stock=stock,
     )  # fmt: skip
 
 
