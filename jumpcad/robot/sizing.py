@@ -16,9 +16,17 @@ from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
-from jumpcad.robot.stop.strength import BLOW_FACTOR, PEAK_SHARE
 from jumpcad.strength.growth import Growth, grown_mm, in_hundredths
-from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, rail_twist_nmm, toe_load_n, toe_moment_nmm
+from jumpcad.strength.loads import (
+    BLOW_FACTOR,
+    PEAK_SHARE,
+    MovingMass,
+    push_off,
+    rail_moment_nmm,
+    rail_twist_nmm,
+    toe_load_n,
+    toe_moment_nmm,
+)
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
