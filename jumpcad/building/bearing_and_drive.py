@@ -176,7 +176,7 @@ def _require_hub_room(settled: Settled) -> None:
     if holes.bearing is None:
         return
     wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
-    to_screw = cam.lever_length_mm - holes.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_screw = cam.lever_length_mm - holes.fits.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
     to_spacer = math.hypot(*cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
     largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
     if holes.bearing.outer_mm > largest:

@@ -148,7 +148,6 @@ class CamGeometry:
 class Cam:
     """A finished cam with its lever; lengths in mm, points from the hub unless the cam's frame is named.
 
-    - `geometry`: Closed-form curves and conversions between frames.
     - `profile_mm`: Outline (n, 2), in the cam's frame at cam angle 0.
     - `outer_radius_mm`, `core_radius_mm`: Distances of the outline's farthest and nearest point from the cam's axis.
     - `max_pressure_angle_rad`, `min_convex_radius_mm`: Largest pressure angle of the lift, and smallest convex radius
@@ -156,7 +155,6 @@ class Cam:
     - `peak_contact_n`, `contact_pressure_mpa`: Largest force between roller and cam, and largest pressure of their line
       contact (Hertz).
     - `worn_mm`: Radius to which the corner at the end of the lift wears.
-    - `findings`: Signed margins of every limit that was checked.
     """
 
     geometry: CamGeometry

@@ -31,7 +31,6 @@ class SpringLimits:
     - `mandrel_min_mm`: The smallest bushing that can carry a coil.
     - `pin_radius_min_mm`: From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of
       the main leg.
-    - `pin_mm`: Diameter of the pins.
     - `stress_share`: Allowable bending stress over tensile strength.
     - `plate_pins_rad`: Directions of the plates' pin that are tried, the preferred one first.
     - `mandrel_clearance_mm`: Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not

@@ -188,7 +188,10 @@ def fitting_pads(fittings: Fittings, more_mm: float) -> Iterator[Region]:
 
 def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left", "right"]) -> Iterator[Region]:
     """Yield what a plate lacks: holes for leads with the slots of their tie, USB plug; in the right one the switch."""
-    yield from _wire_hole(fittings.left_mm if side == "left" else fittings.right_mm)
+    x, z = wire_hole_mm(fittings.left_mm if side == "left" else fittings.right_mm)
+    yield hole(HOLE_MM, (x, z))
+    for sign in (-1.0, 1.0):
+        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, z + RELIEF_UP_MM), 0.5)
     if fittings.switch_mm is not None and side == "right":
         x, z = fittings.switch_mm
         yield rectangle(KNOB_MM, (x, z), 1.0)
@@ -202,10 +205,3 @@ def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left",
 def wire_hole_mm(place_mm: Array) -> tuple[float, float]:
     """Return the middle (x, z) of the hole for leads in the plate's room for it and its tie."""
     return float(place_mm[0]), float(place_mm[1] - HOLE_HALF_MM[1] + HOLE_MM)
-
-
-def _wire_hole(place_mm: Array) -> Iterator[Region]:
-    x, z = wire_hole_mm(place_mm)
-    yield hole(HOLE_MM, (x, z))
-    for sign in (-1.0, 1.0):
-        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, z + RELIEF_UP_MM), 0.5)

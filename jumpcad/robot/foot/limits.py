@@ -136,7 +136,7 @@ def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
     force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
     holes = case.holes
     height, width = joint_height_mm(case.layout, holes), case.layout.sections.toe_width_mm
-    bores = (holes.fits.m3_tap_mm, holes.m3_clearance_mm)
+    bores = (holes.fits.m3_tap_mm, holes.fits.m3_clearance_mm)
     return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
 
 

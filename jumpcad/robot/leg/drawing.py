@@ -56,7 +56,7 @@ def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     arm = tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM)
     heel = rectangle((STOP_PAD_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0))
     inner = union([*hub, around_pin, arm, heel])
-    holed = [hole(holes.m3_clearance_mm, lever), hole(holes.press(layout.axle_mm), pin)]
+    holed = [hole(holes.fits.m3_clearance_mm, lever), hole(holes.press(layout.axle_mm), pin)]
     eye = hole(holes.eye(layout.axle_mm), ankle)
     bore = holes.hub_slabs(-half, half)
     if place is None:

@@ -86,12 +86,10 @@ class SensorNeeds:
 class SensorPlace:
     """Where the switch is, and the track that it feels.
 
-    - `needs`: What it was placed for.
     - `place_mm`: The plunger's axis (2,) in the body frame's x-z plane.
     - `turn_rad`: Turn of the switch's long side in x-z, counter-clockwise from x.
     - `direction_rad`: Direction of the plunger from the cam's axis, counter-clockwise from x.
     - `radius_mm`: Of the plunger from the cam's axis.
-    - `half_width_mm`: Half of the groove's width.
     - `depth_mm`: Of the groove below the land.
     - `base_mm`: From the plate's outer face to the switch's base, outwards.
     - `scatter_rad`: How far the angle at which the switch operates may be from the drawn one, either way.

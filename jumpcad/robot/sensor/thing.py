@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.catalogue import Component, Travel
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, lower
 from jumpcad.mechanism.model import BODY
@@ -84,13 +83,6 @@ def plate_pad(sensor: SensorPlace, more_mm: float = 0.0) -> Region:
     return _turned(sensor, rectangle((2.0 * half_length_mm, 2.0 * half_width_mm), corner_radius_mm=1.0 + more_mm))
 
 
-def sensor_slabs(part: Component, travel: Travel) -> list[tuple[float, float, Region]]:
-    """Return the switch as slabs along y from its base inwards, its plunger drawn at the end of its travel."""
-    height = part.height_mm or 0.0
-    case = rectangle((part.length_mm or 0.0, part.width_mm or 0.0))
-    return [(-height, 0.0, case), (-travel.total_mm, -height, disc(travel.pin_mm))]
-
-
 def _require_base(layout: Layout, holes: HoleSizes) -> None:
     """Raise if the switch's base is too near the plate for the mount's rim around it."""
     assert layout.sensor is not None
@@ -123,7 +115,9 @@ def sensor(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     if felt is None:
         return
     part, at = felt.needs.part, (felt.place_mm[0], outside + felt.base_mm, felt.place_mm[1])
-    slabs = sensor_slabs(part, felt.needs.travel)
+    height, case, travel = part.height_mm or 0.0, rectangle(felt.needs.case_mm), felt.needs.travel
+    # from its base inwards, its plunger drawn at the end of its travel
+    slabs = [(-height, 0.0, case), (-travel.total_mm, -height, disc(travel.pin_mm))]
     yield bought("sensor", part.description, BODY, part.mass_g, slabs, at, felt.turn_rad)
     head = outside + ear_height_mm(layout)
     for number, place in enumerate(screw_places(felt), start=1):
