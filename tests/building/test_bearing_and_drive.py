@@ -113,14 +113,9 @@ def test_the_hub_keeps_off_the_spacer_on_the_cams_axle_and_off_the_rollers_screw
     to_screw = 14.0 - holes.fits.m3_clearance_mm / 2.0 - 0.9 - 0.08
     for axis_mm, lever_mm, free in ((16.0, 100.0, 2.0 * to_spacer), (90.0, 14.0, 2.0 * to_screw)):
         cam = SimpleNamespace(cam_axis_mm=np.array([0.0, axis_mm]), lever_length_mm=lever_mm)
-        just, wide = (
-            replace(
-                settled,
-                drive=SimpleNamespace(cam=cam),
-                holes=replace(holes, bearing=holes.bearing.model_copy(update={"outer_mm": free + more})),
-            )
-            for more in (-0.01, 0.01)
-        )
+        bearings = (holes.bearing.model_copy(update={"outer_mm": free + more}) for more in (-0.01, 0.01))
+        beside = replace(settled, drive=SimpleNamespace(cam=cam))
+        just, wide = (replace(beside, holes=replace(holes, bearing=one)) for one in bearings)
         _require_hub_room(just)
         with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit") as refused:
             _require_hub_room(wide)

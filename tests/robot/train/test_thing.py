@@ -31,12 +31,8 @@ def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
     findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
     spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
     cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
-    violated = replace(
-        drive,
-        spring=replace(drive.spring, findings=spring),
-        cam=replace(drive.cam, findings=cam),
-        train=replace(drive.train, findings=findings),
-    )
+    springs, turned = replace(drive.spring, findings=spring), replace(drive.cam, findings=cam)
+    violated = replace(drive, spring=springs, cam=turned, train=replace(drive.train, findings=findings))
     robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
     assert [finding.name for finding in errors(drive_findings(robot))] == [name]
 
