@@ -22,10 +22,10 @@ from jumpcad.robot.leg.drawing import main_leg
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sensor.place import SensorNeeds
 from jumpcad.robot.springs.place import PLATE_PINS_RAD, NoPinRoomError
-from jumpcad.robot.stop.strength import StopBlow, stop_blow
 from jumpcad.robot.things import THINGS
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
+from jumpcad.strength.loads import StopBlow, stop_blow
 from jumpcad.transforms import same_by_value
 from jumpcad.workshop import Workshop
 
@@ -152,13 +152,8 @@ def _met_by_stop(layout: Layout, blow: Blow) -> StopBlow:
     """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
     stop = layout.stop
     held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
-    return StopBlow(
-        held.stop,
-        *(
-            float(f"{value:.5g}")
-            for value in (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
-        ),
-    )
+    values = (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
+    return StopBlow(held.stop, *(float(f"{value:.5g}") for value in values))
 
 
 def drawings(layout: Layout, workshop: Workshop) -> list[Drawing]:

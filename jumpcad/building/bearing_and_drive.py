@@ -41,12 +41,9 @@ from jumpcad.workshop import Workshop
 
 
 def drive_limits(
-    workshop: Workshop,
-    roller: Bearing,
-    sections: Sections,
-    holes: HoleSizes,
+    workshop: Workshop, roller: Bearing, sections: Sections, holes: HoleSizes,
     plate_pins_rad: tuple[float, ...] = PLATE_PINS_RAD,
-) -> DriveLimits:
+) -> DriveLimits:  # fmt: skip
     """Return the limits of the drive in a workshop, with a roller of the catalogue, beside a main leg of some size.
 
     `plate_pins_rad` are the directions of the plates' pin that the springs may have, the preferred one first.
@@ -64,34 +61,28 @@ def _spring_limits(
     """Return the limits of the springs: a bushing around the leg's axle, and a pin that passes hub and leg."""
     fits, safety, axle = workshop.fits.drawn, workshop.safety, workshop.bought.axle_mm
     hub_radius = max(holes.hub_radius_mm, sections.leg_root_mm / 2.0)
+    share = min(safety.spring_stress_share, spring_share(safety.jumps)) / (1.0 + safety.stress_reserve)
+    mandrel, pin = axle / 2.0 + fits.sliding_mm + fits.wall_min_mm, hub_radius + CLEAR_MM + axle / math.sqrt(2.0)
     return SpringLimits(
-        mandrel_min_mm=2.0 * (axle / 2.0 + fits.sliding_mm + fits.wall_min_mm),
-        pin_radius_min_mm=hub_radius + CLEAR_MM + axle / math.sqrt(2.0),
-        pin_mm=axle,
+        mandrel_min_mm=2.0 * mandrel, pin_radius_min_mm=pin, pin_mm=axle, stress_share=share,
         plate_pins_rad=plate_pins_rad,
-        stress_share=min(safety.spring_stress_share, spring_share(safety.jumps)) / (1.0 + safety.stress_reserve),
-    )
+    )  # fmt: skip
 
 
 def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamLimits:
     """Return the limits of the cam: its roller, the lever's eye beside its axle, and its dog."""
     lever_eye, safety = max(LEVER_EYE_RADIUS_MM, sections.lever_root_mm / 2.0), workshop.safety
+    gears = workshop.material("gears")
     return CamLimits(
-        roller_radius_mm=roller.outer_mm / 2.0,
-        roller_load_n=roller.static_load_n / safety.load_factor,
-        cam_width_mm=roller.width_mm,
-        gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
-        core_radius_mm=sections.dog_mm / 2.0,
-        modulus_mpa=workshop.material("gears").modulus_mpa,
-        play_rad=workshop.release.play_rad,
+        roller_radius_mm=roller.outer_mm / 2.0, roller_load_n=roller.static_load_n / safety.load_factor,
+        cam_width_mm=roller.width_mm, gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
+        core_radius_mm=sections.dog_mm / 2.0, modulus_mpa=gears.modulus_mpa, play_rad=workshop.release.play_rad,
         overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
-        pressure_mpa=CamLimits.pressure_mpa
-        / math.sqrt(safety.load_factor),  # of a line contact, with the root of force
-        shakedown_mpa=4.0 / math.sqrt(3.0) * workshop.material("gears").strength_in_plane_mpa,
-        clearance_mm=GAP_MM + safety.gap_reserve_mm,
+        pressure_mpa=CamLimits.pressure_mpa / math.sqrt(safety.load_factor),  # of a line contact, with the force's root
+        shakedown_mpa=4.0 / math.sqrt(3.0) * gears.strength_in_plane_mpa, clearance_mm=GAP_MM + safety.gap_reserve_mm,
         pressure_angle_rad=CamLimits.pressure_angle_rad - math.radians(safety.pressure_angle_reserve_deg),
         undercut_margin_mm=CamLimits.undercut_margin_mm + safety.gap_reserve_mm,
-    )
+    )  # fmt: skip
 
 
 def _train_limits(workshop: Workshop, sections: Sections) -> TrainLimits:
@@ -141,10 +132,7 @@ def solve_bearing_and_drive(
     bearings = hub_bearings(workshop)
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     falls_s = fall_s(linkage, springs, math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD)
-
-    @cache
-    def drive_within(limits: DriveLimits) -> Drive:
-        return synthesise(design, limits, workshop.catalogue)
+    drive_within = cache(lambda limits: synthesise(design, limits, workshop.catalogue))
 
     def with_bearing(bearing: Bearing | None) -> Settled:
         sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
@@ -156,11 +144,8 @@ def solve_bearing_and_drive(
     number = first_guess(bearings, design, workshop)
     while True:
         settled = with_bearing(bearings[number])
-        stronger = next(
-            (index for index in range(number, len(bearings)) if _carries(bearings[index], settled, workshop)),
-            len(bearings) - 1,
-        )
-        if stronger == number:
+        enough = (index for index in range(number, len(bearings)) if _carries(bearings[index], settled, workshop))
+        if (stronger := next(enough, len(bearings) - 1)) == number:
             _require_hub_room(settled)
             return settled
         number = stronger
@@ -169,8 +154,7 @@ def solve_bearing_and_drive(
 def fall_s(linkage: Linkage, spring: Spring, past_rad: float) -> float:
     """Return the time from release to an angle past rest, with a typical mass of the body and a reserve (s)."""
     body, still = TYPICAL_BODY, np.zeros((3, 3))
-    inertia = still.copy()
-    inertia[1, 1] = body.mass_kg * (body.gyration_mm / 1000.0) ** 2
+    inertia = np.diag([0.0, body.mass_kg * (body.gyration_mm / 1000.0) ** 2, 0.0])
     com = np.array([body.com_mm[0], 0.0, body.com_mm[1]]) / 1000.0
     bodies = {BODY: Body(BODY, body.mass_kg, com, inertia)}
     bodies |= {name: Body(name, 0.0, np.zeros(3), still) for name in (MAIN_LEG, FRONT_LINK)}
@@ -192,7 +176,7 @@ def _require_hub_room(settled: Settled) -> None:
     if holes.bearing is None:
         return
     wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
-    to_screw = cam.lever_length_mm - holes.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_screw = cam.lever_length_mm - holes.fits.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
     to_spacer = math.hypot(*cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
     largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
     if holes.bearing.outer_mm > largest:

@@ -100,14 +100,8 @@ def friction_of(layout: Layout, workshop: Workshop) -> Friction:
 WEIGHED_OFF = 20.0
 """By how much a printed part may be heavier or lighter than as drawn; judgement: kilograms are 1000 times off."""
 NOT_IN_EVERY_ROBOT = (
-    "idler",
-    "cam_spacer_left",
-    "idler_spacer_right",
-    "toe_left",
-    "toe_right",
-    "main_leg_end",
-    "sensor_mount",
-)
+    "idler", "cam_spacer_left", "idler_spacer_right", "toe_left", "toe_right", "main_leg_end", "sensor_mount",
+)  # fmt: skip
 """Parts that only some designs have: a workshop with their weights serves the other designs too."""
 
 
@@ -146,19 +140,19 @@ def release_of(
     bodies: Mapping[str, Body], spring: Spring,
 ) -> Release:  # fmt: skip
     """Return the release of a robot with all its masses."""
-    by_name = {part.name: part for part in parts}
-    lever, length = _lever(layout, workshop), layout.drive.cam.lever_length_mm
+    by_name, length, sections = {part.name: part for part in parts}, layout.drive.cam.lever_length_mm, layout.sections
+    heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
+    lever = Beam(sections.thickness_mm, heights, Shell.of(workshop.process))
     mass = 1e-6 * float(np.mean(lever.area_mm2)) * length * workshop.material("links").density_g_cm3
     moving = MovingParts(
-        spring=spring,
-        leg=reflected_mass(bodies, layout.linkage),
+        spring=spring, leg=reflected_mass(bodies, layout.linkage),
         cam_kg_m2=_about_axle(by_name["cam"], layout.cam_axis_mm),
         cam_gear_kg_m2=_about_axle(by_name["cam_gear"], layout.cam_axis_mm),
         pinion_kg_m2=_about_axle(by_name["motor_pinion"], layout.motor_mm),
         bore_mm=HoleSizes.of(workshop, layout.hub_bearing).running(layout.axle_mm),
         lever_n_per_m=1000.0 * tip_stiffness_n_per_mm(lever, length, workshop.material("links").modulus_mpa),
         roller_kg=sum(item.mass.mass_kg for item in hardware if item.name.startswith("roller")) + LEVER_SHARE * mass,
-    )
+    )  # fmt: skip
     return release(layout.drive, moving, workshop)
 
 
@@ -167,10 +161,3 @@ def _about_axle(part: Part, axis_mm: Array) -> float:
     mass = part.mass.placed(in_metres(part.placements[0].T_body_part))
     away = mass.com_m[[0, 2]] - axis_mm / 1000.0
     return float(mass.inertia_kg_m2[1, 1] + mass.mass_kg * np.sum(away**2))
-
-
-def _lever(layout: Layout, workshop: Workshop) -> Beam:
-    """Return the printed lever from the leg's hub to the roller."""
-    sections = layout.sections
-    heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
-    return Beam(sections.thickness_mm, heights, Shell.of(workshop.process))

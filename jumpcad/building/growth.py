@@ -52,8 +52,7 @@ def built_and_checked(design: Design, workshop: Workshop, name: str) -> tuple[Ro
     name = composed(name)
     if name:
         require_name(name)
-    refused = errors(geometry_findings(design))
-    if refused:
+    if refused := errors(geometry_findings(design)):
         first = refused[0]
         raise CannotBuildError(f"{first.name}: {first.message}", first.name, first.margin, first.unit, first.ways)
     robot, findings, growth, grown = _grown(assembled(design, workshop, name, Growth()), Growth())
@@ -125,8 +124,7 @@ def statics_refusal(design: Design, workshop: Workshop, settings: Settings) -> t
     chosen, plain = chosen_parts(workshop), capsule_robot(design)
     parts: list[Battery | Board | Component] = [chosen.battery, *chosen.boards.values(), *chosen.components.values()]
     body_kg = min(plain.bodies[BODY].mass_kg, BARE_BODY_KG + sum(part.mass_g for part in parts) / 1000.0)
-    masses = {BODY: body_kg}
-    bodies = {name: replace(body, mass_kg=masses.get(name, 0.0)) for name, body in plain.bodies.items()}
+    bodies = {name: replace(one, mass_kg=body_kg if name == BODY else 0.0) for name, one in plain.bodies.items()}
     spring = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     robot = with_spring_factor(replace(plain, bodies=bodies, springs=(spring,)), settings.spring_efficiency)
     _, weak = statics_findings(robot, settings.gravity_m_s2)

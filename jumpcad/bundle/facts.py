@@ -11,7 +11,7 @@ from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.limits import jumps_per_charge, links
-from jumpcad.robot.foot.sideways import play_rad, rolls
+from jumpcad.robot.foot.thing import play_rad, rolls
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump
 

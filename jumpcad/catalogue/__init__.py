@@ -8,29 +8,7 @@ from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
-    "Article",
-    "Battery",
-    "Bearing",
-    "Board",
-    "CageRod",
-    "Catalogue",
-    "ClevisPin",
-    "Clip",
-    "Component",
-    "ElectricalParts",
-    "Kit",
-    "LegBar",
-    "Motor",
-    "Nut",
-    "OwnParts",
-    "Pad",
-    "PartsByName",
-    "Rod",
-    "Screw",
-    "Standoff",
-    "StockSpring",
-    "Travel",
-    "Washer",
-    "Wire",
-    "load_catalogue",
-]
+    "Article", "Battery", "Bearing", "Board", "CageRod", "Catalogue", "ClevisPin", "Clip", "Component",
+    "ElectricalParts", "Kit", "LegBar", "Motor", "Nut", "OwnParts", "Pad", "PartsByName", "Rod", "Screw", "Standoff",
+    "StockSpring", "Travel", "Washer", "Wire", "load_catalogue",
+]  # fmt: skip

@@ -20,15 +20,8 @@ from jumpcad.robot.thing import Check
 from jumpcad.robot.things import THINGS
 
 __all__ = [
-    "CHECKS",
-    "SYMBOLS",
-    "Check",
-    "basis_of",
-    "check",
-    "constraint_findings",
-    "costly_findings",
-    "quick_findings",
-]
+    "CHECKS", "SYMBOLS", "Check", "basis_of", "check", "constraint_findings", "costly_findings", "quick_findings",
+]  # fmt: skip
 
 SYMBOLS = (
     "M bending moment, F force, T torque, σ and τ bending and shear stress; b, h, t width, height and thickness, A "

@@ -89,13 +89,10 @@ def assembly_findings(robot: Robot) -> list[Finding]:
 def _findings(name: str, blocked: list[Blocked], none: str) -> Iterator[Finding]:
     for one in blocked:
         what = "path" if name == "assembly_paths" else "tool"
-        message = (
-            f"{one.by} blocks the {what} of {one.name} in step {one.step.title}: it covers {one.share_mm2:.2f} mm²; "
-            f"{TOLERANCE_MM2:g} mm² are allowed"
-        )
-        ways: Remedy = higher("carrying_link_mm", "d_coef", note="a longer body") + choose(
-            "another", "bought.retention"
-        )
+        message = f"{one.by} blocks the {what} of {one.name} in step {one.step.title}: it covers "
+        message += f"{one.share_mm2:.2f} mm²; {TOLERANCE_MM2:g} mm² are allowed"
+        longer = higher("carrying_link_mm", "d_coef", note="a longer body")
+        ways: Remedy = longer + choose("another", "bought.retention")
         if one.name.startswith(OF_FOOT):
             ways = lower("ground_link_angle_deg", note="toes that point more ahead")
         elif "cage_" in (one.name[:5], one.by[:5]):
@@ -234,9 +231,8 @@ def _extent(thing: Piece) -> tuple[Array, Array]:
 
 def _depth(thing: Piece, along: Array) -> float:
     """Return how far a thing's box reaches in a direction (3,)."""
-    return float(
-        (np.stack(_extent(thing)) * along).max(axis=0).sum() - (np.stack(_extent(thing)) * along).min(axis=0).sum()
-    )
+    corners = np.stack(_extent(thing)) * along
+    return float(corners.max(axis=0).sum() - corners.min(axis=0).sum())
 
 
 def _reach(mover: Piece, there: list[Piece], along: Array) -> float:

@@ -167,18 +167,10 @@ def interference_findings(robot: Robot) -> list[Finding]:
         )
         for a, b, label, volume in overlaps(robot)
     ]  # fmt: skip
-    positions = f"{WINDING_POSITIONS} positions of winding and {DROP_POSITIONS} of the drop, and past rest to the stop"
-    return found or [
-        Finding(
-            "interference",
-            "info",
-            TOLERANCE_MM3,
-            "mm³",
-            f"no two pieces share more than {TOLERANCE_MM3:g} mm³ in {positions}",
-            "nothing to do",
-            limit=TOLERANCE_MM3,
-        )
-    ]
+    none = f"no two pieces share more than {TOLERANCE_MM3:g} mm³ in {WINDING_POSITIONS} positions of winding and "
+    none += f"{DROP_POSITIONS} of the drop, and past rest to the stop"
+    good = Finding("interference", "info", TOLERANCE_MM3, "mm³", none, "nothing to do", limit=TOLERANCE_MM3)
+    return found or [good]
 
 
 def shared_volume_mm3(a: Piece, T_a: Array, b: Piece, T_b: Array, once: bool = True) -> float:

@@ -76,9 +76,8 @@ Fails = Callable[[Region, float], bool]
 def bed_findings(robot: Robot) -> list[Finding]:
     """Return `bed_fit`: every part within the printer's bed, parallel to it or turned."""
     bed = robot.workshop.printer.bed_mm
-    margin, part = min(
-        ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts), key=lambda item: item[0]
-    )
+    fitted = ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts)
+    margin, part = min(fitted, key=lambda item: item[0])
     size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
     return [
         limit(
@@ -109,20 +108,13 @@ def printability_findings(robot: Robot) -> list[Finding]:
     undersides = [(drawing.name, *side) for drawing in drawings for side in _undersides(drawing, fits, process)]
     reaches = [(size, name) for name, bridge, size in undersides if not bridge]
     spans = [(size, name) for name, bridge, size in undersides if bridge]
+    free, wider = OVERHANG_LINES * process.line_width_mm, higher("fits.bridge_mm", note="if possible")
     return [
         _narrowest("walls", "wall", flat, _thin_wall, wall_min, less["wall_min_mm"]),
         _narrowest("holes", "hole", flat, _narrow_hole, hole_min, (*less["hole_min_mm"], "drill it")),
         _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, less["pin_min_mm"]),
-        _largest(
-            "overhangs",
-            "overhang",
-            reaches,
-            OVERHANG_LINES * process.line_width_mm,
-            "turn the part over, or use support",
-        ),
-        _largest(
-            "bridges", "bridge", spans, fits.bridge_mm, ("use support", *higher("fits.bridge_mm", note="if possible"))
-        ),
+        _largest("overhangs", "overhang", reaches, free, "turn the part over, or use support"),
+        _largest("bridges", "bridge", spans, fits.bridge_mm, ("use support", *wider)),
         *_solid_findings(drawings),
     ]
 
@@ -223,9 +215,8 @@ def _undersides(drawing: Drawing, fits: Fits, process: Process) -> Iterator[tupl
             held = (grown(ledge, TOUCH_MM) ^ below.region).decompose()
             ring = any(True for piece in held for _ in _contours(piece, -1.0))
             inside = (ledge - union(_contours(below.region, 1.0))).is_empty()
-            between = (
-                ledge - grown(hull(held), TOUCH_MM)
-            ).is_empty()  # such as the roof of a socket that is open at one end
+            # such as the roof of a socket that is open at one end
+            between = (ledge - grown(hull(held), TOUCH_MM)).is_empty()
             bridge, top = len(held) > 1 or (ring and inside) or between, _longest_mm(ledge)
             near = below.region ^ box_around(ledge, 2.0 * top)
             holds = partial(_vanishes, ledge) if bridge else partial(_covered, ledge, near)

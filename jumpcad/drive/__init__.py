@@ -10,17 +10,6 @@ from jumpcad.drive.synthesis import Drive, DriveLimits, synthesise
 from jumpcad.drive.train import GearTrain
 
 __all__ = [
-    "Cam",
-    "CamGeometry",
-    "CamLaw",
-    "CamLimits",
-    "Drive",
-    "DriveLimits",
-    "Gear",
-    "GearPair",
-    "GearTrain",
-    "SpringLimits",
-    "TorsionSpring",
-    "TrainLimits",
-    "synthesise",
-]
+    "Cam", "CamGeometry", "CamLaw", "CamLimits", "Drive", "DriveLimits", "Gear", "GearPair", "GearTrain",
+    "SpringLimits", "TorsionSpring", "TrainLimits", "synthesise",
+]  # fmt: skip

@@ -106,14 +106,17 @@ class CamGeometry:
         turn = (now - direction - self.law.lift_rad) % (2 * math.pi)
         return self.law.lift_rad + turn
 
-    def wind_over_tip_rad(self, cam_rad: npt.ArrayLike) -> Array:
-        """Return the leg angle (n,) while the roller rolls slowly over the corner, 0 once it has left it."""
-        tip = self.in_body(self.tip_mm, cam_rad)
-        distance = np.hypot(tip[..., 0], tip[..., 1])
-        cosine = (distance**2 + self.lever_mm**2 - self.roller_radius_mm**2) / (2 * distance * self.lever_mm)
-        behind = np.arctan2(tip[..., 1], tip[..., 0]) - self.lever_start_rad
+    def wind_around_rad(self, corner_mm: Array, reach_mm: float) -> tuple[Array, Array]:
+        """Return the leg angle (n,) with the roller's centre at a distance from corners (n, 2), seen from the hub.
+
+        And a cosine (n,), below 1 where the lever reaches so far.
+        """
+        x, z = corner_mm[..., 0], corner_mm[..., 1]
+        distance = np.hypot(x, z)
+        cosine = (distance**2 + self.lever_mm**2 - reach_mm**2) / (2 * distance * self.lever_mm)
+        behind = np.arctan2(z, x) - self.lever_start_rad
         wind = np.mod(behind + math.pi, 2 * math.pi) - math.pi + np.arccos(np.clip(cosine, -1.0, 1.0))
-        return np.where(cosine < 1, np.clip(wind, 0.0, self.law.compression_rad), 0.0)
+        return wind, cosine
 
     def outline_mm(self, lift_points: int = 181) -> Array:
         """Return the cam's outline (n, 2) in its frame, counter-clockwise, not closed by repeating its first point.
@@ -145,7 +148,6 @@ class CamGeometry:
 class Cam:
     """A finished cam with its lever; lengths in mm, points from the hub unless the cam's frame is named.
 
-    - `geometry`: Closed-form curves and conversions between frames.
     - `profile_mm`: Outline (n, 2), in the cam's frame at cam angle 0.
     - `outer_radius_mm`, `core_radius_mm`: Distances of the outline's farthest and nearest point from the cam's axis.
     - `max_pressure_angle_rad`, `min_convex_radius_mm`: Largest pressure angle of the lift, and smallest convex radius
@@ -153,7 +155,6 @@ class Cam:
     - `peak_contact_n`, `contact_pressure_mpa`: Largest force between roller and cam, and largest pressure of their line
       contact (Hertz).
     - `worn_mm`: Radius to which the corner at the end of the lift wears.
-    - `findings`: Signed margins of every limit that was checked.
     """
 
     geometry: CamGeometry
@@ -211,7 +212,10 @@ class Cam:
         """Return the leg angle (n,) at cam angles (n,) of any turn: lift, over the corner, then at rest."""
         phi = np.mod(np.asarray(cam_rad, dtype=float), 2 * math.pi)
         lift = self.law.wind_rad(np.minimum(phi, self.law.lift_rad))
-        return np.where(phi <= self.law.lift_rad, lift, self.geometry.wind_over_tip_rad(phi))
+        tip = self.geometry.in_body(self.geometry.tip_mm, phi)
+        wind, cosine = self.geometry.wind_around_rad(tip, self.roller_radius_mm)
+        over = np.where(cosine < 1, np.clip(wind, 0.0, self.law.compression_rad), 0.0)
+        return np.where(phi <= self.law.lift_rad, lift, over)
 
 
 def _unit(angle_rad: npt.ArrayLike) -> Array:

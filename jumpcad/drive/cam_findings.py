@@ -158,12 +158,8 @@ def _found(name: str, room: float, limits: CamLimits) -> str:
     room = round(room, 6) + 0.0  # the search ends on its limits, within about 1e-9: no "-0.0"
     degrees, steepest, past = (math.degrees(angle) for angle in (room, limits.pressure_angle_rad, limits.overshoot_rad))
     gap = f"{limits.clearance_mm + room:.2f} mm, of {limits.clearance_mm:g} mm at least"
-    core, undercut, pressure, load = (
-        limits.core_radius_mm,
-        limits.undercut_margin_mm,
-        limits.pressure_mpa,
-        limits.roller_load_n,
-    )
+    core, undercut = limits.core_radius_mm, limits.undercut_margin_mm
+    pressure, load = limits.pressure_mpa, limits.roller_load_n
     turn = f"lift, drop with the dog's play and a reserve take {360.0 - degrees:.0f}° of the cam's 360°"
     return {
         "cam_pressure_angle": f"largest pressure angle {steepest - degrees:.2f}° of {steepest:.2f}°",

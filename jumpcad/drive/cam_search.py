@@ -143,12 +143,8 @@ class _Shapes:
 
     def _smallest(self, start: Array) -> Array:
         """Return the point where the size is smallest and every margin positive."""
-        return _constrained_minimum(
-            lambda logs: self._at(logs)[:2],
-            lambda logs: self._at(logs)[2:],
-            start,
-            list(zip(self.lower, self.upper, strict=True)),
-        )
+        bounds = list(zip(self.lower, self.upper, strict=True))
+        return _constrained_minimum(lambda logs: self._at(logs)[:2], lambda logs: self._at(logs)[2:], start, bounds)
 
     def _least_bad(self, start: Array) -> Array:
         """Return where the largest violation is smallest: least t with every margin above -t."""
@@ -183,11 +179,9 @@ def _size(outer_mm: Array, shapes: Array) -> Array:
 
 
 def _constrained_minimum(
-    objective: Callable[[Array], tuple[float, Array]],
-    margins: Callable[[Array], tuple[Array, Array]],
-    start: Array,
+    objective: Callable[[Array], tuple[float, Array]], margins: Callable[[Array], tuple[Array, Array]], start: Array,
     bounds: Any,
-) -> Array:
+) -> Array:  # fmt: skip
     """Return where a function is least with every margin positive; both come with their gradients."""
     constraints: Any = {"type": "ineq", "fun": lambda x: margins(x)[0], "jac": lambda x: margins(x)[1]}
     with one_thread():

@@ -61,13 +61,10 @@ def by_cost(
                 seconds = winding_s(law, driven, ratio, efficiency)
                 mass_g = motor.mass_g + DISC_G_MM3 * math.pi / 4 * area * limits.face_width_mm
                 found.append((mass_g + seconds / limits.seconds_per_gram, number, int(row)))
+    width, backlash = limits.face_width_mm, limits.backlash_circumferential_mm
     for _, number, row in sorted(found):
         pairs = candidates[number][row, 2:].reshape(count, 3)
-        stages = (
-            gear_pair(int(p), int(w), float(m), limits.face_width_mm, limits.backlash_circumferential_mm)
-            for p, w, m in pairs
-        )
-        yield motors[number], tuple(stages)
+        yield motors[number], tuple(gear_pair(int(p), int(w), float(m), width, backlash) for p, w, m in pairs)
 
 
 def _by_shape(motors: Sequence[Motor], limits: TrainLimits) -> dict[TrainLimits, list[int]]:

@@ -32,7 +32,6 @@ class TrainLimits:
     """The limits of motor and gears. Lengths in mm; values that a workshop gives have no default here.
 
     - `stall_share`, `torque_max_nm`: Largest share of a motor's stall torque, and largest torque on its gearbox.
-    - `pair_efficiency`: Efficiency of each printed gear pair.
     - `supply`, `blocked_nm`: What drives the motor, under the PWM with which the blocked motor gives no more than this
       torque: that of the firmware. Without a supply it turns at its rated voltage.
     - `backlash_circumferential_mm`: Backlash of a pair, at the pitch circle.
@@ -44,7 +43,6 @@ class TrainLimits:
     - `cam_efficiency`: Efficiency of cam, roller and their axles together; judgement.
     - `modules_mm`: Modules tried; judgement: the smallest whose teeth a nozzle of 0.4 mm prints, and the next of ISO
       54.
-    - `face_width_mm`: Face width of all gears.
     - `cam_gear_tip_max_mm`: Largest tip radius of the cam gear beside what is around the leg's pivot; no limit by
       default.
     - `motor_distance_min_mm`: Least distance of the motor's axis from the cam's, whatever the motor; judgement: the
@@ -99,13 +97,9 @@ class TrainLimits:
 
     def beside(self, motor: Motor) -> Self:
         """Return the limits with those that a motor's shaft and socket set."""
-        root = motor.shaft_mm / 2.0 + self.shaft_wall_mm
-        distance = self.cam_room_mm + min(socket_half_mm(motor))
-        return replace(
-            self,
-            pinion_root_min_mm=max(self.pinion_root_min_mm, root),
-            motor_distance_min_mm=max(self.motor_distance_min_mm, distance),
-        )
+        root = max(self.pinion_root_min_mm, motor.shaft_mm / 2.0 + self.shaft_wall_mm)
+        distance = max(self.motor_distance_min_mm, self.cam_room_mm + min(socket_half_mm(motor)))
+        return replace(self, pinion_root_min_mm=root, motor_distance_min_mm=distance)
 
 
 POSITIONS = 201

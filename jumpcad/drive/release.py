@@ -1,8 +1,8 @@
 """The release of a robot: the energy that is left in the springs, and the torque peak at the gear motor.
 
 The end of the dog's play stops the cam; the gear then takes up the gearhead's backlash and strikes the rotor. `rolling`
-has the model, `corner` the roller's path, `blows` the impacts.
-Checked against a contact simulation of the exported meshes (`tests/clients`).
+has the model, `corner` the roller's path, `dog` the impacts. Checked against a contact simulation of the exported
+meshes (`tests/clients`).
 """
 
 import math

@@ -10,7 +10,7 @@ springs and weight. Contact ends where its force would be tension. The energy th
 lightest of the three. The compliance of the contact itself is in series with the lever.
 
 The gear joins the cam at the end of the dog's play, the motor's rotor at the end of the gearhead's backlash. If the
-corner is then still below the falling roller, the roller lands on it again. `blows` has the torque peaks of these
+corner is then still below the falling roller, the roller lands on it again. `dog` has the torque peaks of these
 impacts, with rebound. Friction in gears and gearhead is not modelled.
 """
 

@@ -4,6 +4,12 @@ Formulas: EN 13906-3 (cold coiled torsion springs of round wire, 3 turns at leas
 k = E·d⁴/(64·D·n) per radian; n counts the arms, which bend as beams held at the coil, as a third of their length of
 wire. Stress q·32·M/(pi·d³) with q = (w + 0.07)/(w - 0.75), w = D/d, at the coil's inner fibre, where fatigue begins;
 0.7 of the tensile strength at most. Loading in the closing direction reduces the diameter to D·n/(n + turns loaded).
+
+Arms are seen from the robot's right, angles counter-clockwise from forward, as everywhere in x-z (mm, rad). From its
+body arm to its leg arm the wire turns counter-clockwise around the hub. The body arm comes in from the plate's pin and
+the leg arm leaves for the leg's pin, each along the coil's tangent; each pin lies beside its arm, away from the hub, so
+that half of the pin and half of the wire are between its axis and the arm's. Winding turns the leg's pin
+counter-clockwise towards the plate's pin and closes the coil.
 """
 
 import math
@@ -11,9 +17,68 @@ from dataclasses import dataclass
 from typing import Literal
 
 from jumpcad.catalogue import Wire
-from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, free_arm_angle_rad
-from jumpcad.findings import Basis, Finding, at_most, lower
+from jumpcad.findings import Basis, Finding, Remedy, at_most, lower
 from jumpcad.mechanism.model import Spring
+
+FULL_TURN_RAD = 2.0 * math.pi
+ARM_BEYOND_MM = 2.0
+"""How far an arm reaches beyond the point where it touches its pin; judgement."""
+
+
+@dataclass(frozen=True)
+class Arms:
+    """The two equal arms of one spring at rest.
+
+    - `mean_mm`, `wire_mm`, `pin_mm`: Mean diameter of the coil, and diameters of wire and pins.
+    - `lever_mm`: From the tangent point to where an arm touches its pin; the arm's force on the pin, square to the arm,
+      has this lever about the hub.
+    """
+
+    mean_mm: float
+    wire_mm: float
+    pin_mm: float
+    lever_mm: float
+
+    @classmethod
+    def to_pins(cls, mean_mm: float, wire_mm: float, pin_mm: float, pin_radius_mm: float) -> "Arms":
+        """Return the arms that reach pins at a distance from the hub."""
+        lever = math.sqrt(pin_radius_mm**2 - beside_mm(mean_mm, wire_mm, pin_mm) ** 2)
+        return cls(mean_mm, wire_mm, pin_mm, lever)
+
+    @property
+    def pin_radius_mm(self) -> float:
+        """From the hub to the pins' axes (mm)."""
+        return math.hypot(beside_mm(self.mean_mm, self.wire_mm, self.pin_mm), self.lever_mm)
+
+    @property
+    def turn_rad(self) -> float:
+        """Angle at the hub between an arm's tangent point and its pin (rad)."""
+        return math.atan2(self.lever_mm, beside_mm(self.mean_mm, self.wire_mm, self.pin_mm))
+
+    @property
+    def arm_turns(self) -> float:
+        """Turns of the coil that bend as much as both arms: a third of their length (beam theory, force at the end)."""
+        return 2.0 * self.lever_mm / (3.0 * math.pi * self.mean_mm)
+
+
+def beside_mm(mean_mm: float, wire_mm: float, pin_mm: float) -> float:
+    """Return how far a pin's axis is from the hub, measured square to the arm that touches it (mm)."""
+    return (mean_mm + wire_mm + pin_mm) / 2.0
+
+
+def between_pins_rad(plate_pin_rad: float, leg_pin_rad: float) -> float:
+    """Return the angle from the plate's pin on to the leg's pin, counter-clockwise, in [0, 2·pi)."""
+    return (leg_pin_rad - plate_pin_rad) % FULL_TURN_RAD
+
+
+def free_arm_angle_rad(turns: float) -> float:
+    """Return the angle between the relaxed arms of a coil, in [0, 2·pi), as spring makers count it.
+
+    Of whole turns the arms point in opposite directions (180°); a quarter of a turn more closes them to 90°. Loading
+    in the closing direction lowers the angle.
+    """
+    return (math.pi - FULL_TURN_RAD * turns) % FULL_TURN_RAD
+
 
 BASIS = {
     "spring_stress": Basis(
@@ -31,7 +96,6 @@ class SpringLimits:
     - `mandrel_min_mm`: The smallest bushing that can carry a coil.
     - `pin_radius_min_mm`: From the axle to the pins that hold the arms, at least: the body's pin crosses the plane of
       the main leg.
-    - `pin_mm`: Diameter of the pins.
     - `stress_share`: Allowable bending stress over tensile strength.
     - `plate_pins_rad`: Directions of the plates' pin that are tried, the preferred one first.
     - `mandrel_clearance_mm`: Gap that a loaded coil leaves around its bushing, on the diameter; judgement: it must not
@@ -158,29 +222,16 @@ def torsion_spring(
     stress = inner_fibre(arms.mean_mm / d) * plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d)
     allowable = limits.stress_share * tensile_mpa
     volume = math.pi / 4 * d**2 * (math.pi * arms.mean_mm * turns + 2 * (arms.lever_mm + ARM_BEYOND_MM))
+    message = f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa"
+    ways: Remedy = lower("stiffness_nmm_per_deg", "compression_ratio")
+    if stock:
+        ways = (*lower("compression_ratio"), "choose another bought.spring with thicker wire")
     return TorsionSpring(
-        arms=arms,
-        turns=turns,
-        stiffness_nm_per_rad=on_leg.stiffness_nm_per_rad / 2,
-        preload_rad=on_leg.preload_rad,
-        wound_rad=wound,
-        plate_pin_rad=pins_rad[0],
-        leg_pin_rad=pins_rad[1],
-        body_length_mm=d * (loaded_turns + 1),
-        mandrel_mm=arms.mean_mm * turns / loaded_turns - d - limits.mandrel_clearance_mm,
-        stress_mpa=stress,
-        allowable_mpa=allowable,
-        tensile_mpa=tensile_mpa,
-        mass_g=wire.density_g_cm3 * volume / 1000,
-        findings=(
-            at_most(
-                "spring_stress", stress, allowable, "MPa",
-                f"the springs' wire of {d:g} mm, loaded: {stress:.0f} of {allowable:.0f} MPa",
-                lower("stiffness_nmm_per_deg", "compression_ratio") if not stock else
-                (*lower("compression_ratio"), "choose another bought.spring with thicker wire"),
-            ),
-        ),
-        stock=stock,
+        arms=arms, turns=turns, stiffness_nm_per_rad=on_leg.stiffness_nm_per_rad / 2, preload_rad=on_leg.preload_rad,
+        wound_rad=wound, plate_pin_rad=pins_rad[0], leg_pin_rad=pins_rad[1], body_length_mm=d * (loaded_turns + 1),
+        mandrel_mm=arms.mean_mm * turns / loaded_turns - d - limits.mandrel_clearance_mm, stress_mpa=stress,
+        allowable_mpa=allowable, tensile_mpa=tensile_mpa, mass_g=wire.density_g_cm3 * volume / 1000,
+        findings=(at_most("spring_stress", stress, allowable, "MPa", message, ways),), stock=stock,
     )  # fmt: skip
 
 

@@ -2,15 +2,24 @@
 
 A stock spring's turns are given: the arms' length is chosen so that they touch the pins. Springs made to order are the
 smallest coil of the catalogue's wires whose arms touch their pins: the stiffness sets the product D·n, the pins the
-fraction of a turn in n (`jumpcad.drive.spring_arms`), and the whole turns are as many as the limits allow.
+fraction of a turn in n (`jumpcad.drive.spring`), and the whole turns are as many as the limits allow.
 """
 
 import math
 
 from jumpcad.catalogue import StockSpring, Wire
 from jumpcad.design import Design, limits_of
-from jumpcad.drive.spring import SpringLimits, TorsionSpring, plain_stress_mpa, torsion_spring
-from jumpcad.drive.spring_arms import ARM_BEYOND_MM, FULL_TURN_RAD, Arms, beside_mm, between_pins_rad
+from jumpcad.drive.spring import (
+    ARM_BEYOND_MM,
+    FULL_TURN_RAD,
+    Arms,
+    SpringLimits,
+    TorsionSpring,
+    beside_mm,
+    between_pins_rad,
+    plain_stress_mpa,
+    torsion_spring,
+)
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Basis, Change, Finding, Remedy, higher, lower
 from jumpcad.mechanism.model import Spring

@@ -172,10 +172,9 @@ def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     _, window = clear_window_rad(cam.geometry)
     play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
     turn = max(window - play - PLAY_MORE_RAD, LEAST_TURN_RAD)
+    train = limits.train
     return replace(
-        limits.train,
-        cam_gear_tip_max_mm=min(limits.train.cam_gear_tip_max_mm, room),
-        cam_room_mm=max(limits.train.cam_room_mm, around),
-        idler_distance_min_mm=max(limits.train.idler_distance_min_mm, around + limits.axle_radius_mm),
-        cam_speed_max_rad_s=min(limits.train.cam_speed_max_rad_s, turn / limits.fall_s),
-    )
+        train, cam_gear_tip_max_mm=min(train.cam_gear_tip_max_mm, room), cam_room_mm=max(train.cam_room_mm, around),
+        idler_distance_min_mm=max(train.idler_distance_min_mm, around + limits.axle_radius_mm),
+        cam_speed_max_rad_s=min(train.cam_speed_max_rad_s, turn / limits.fall_s),
+    )  # fmt: skip

@@ -117,30 +117,19 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     efficiency = limits.efficiency(len(stages))
     peak = law.peak_torque_nm / (ratio * efficiency)
     cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
-    torques = _wheel_torques_nm(law, stages, limits)
+    torques = [law.peak_torque_nm / limits.cam_efficiency]  # on the wheels, from the cam to the motor
+    for pair in stages[:0:-1]:
+        torques.append(torques[-1] / (pair.ratio * limits.pair_efficiency))
+    torques.reverse()
     driven = limits.driven(motor)
     turn = winding(law, driven, ratio, efficiency)
     boards_j = limits.supply.boards_w * turn.seconds if limits.supply else 0.0
+    findings = (*_motor_findings(motor, cam_speed, peak, limits), *_gear_findings(stages, torques, limits))
     return GearTrain(
-        motor=motor,
-        driven=driven,
-        stages=stages,
-        ratio=ratio,
-        efficiency=efficiency,
-        wheel_torques_nm=torques,
-        cam_speed_rad_s=cam_speed,
-        motor_torque_nm=peak,
-        winding_s=turn.seconds,
-        mean_current_a=turn.mean_current_a,
-        peak_current_a=turn.peak_current_a,
-        motor_j=turn.electrical_j,
-        boards_j=boards_j,
-        findings=(
-            *_motor_findings(motor, cam_speed, peak, limits),
-            *_gear_findings(stages, torques, limits),
-            _room_finding(stages[-1], limits),
-        ),
-    )
+        motor=motor, driven=driven, stages=stages, ratio=ratio, efficiency=efficiency, wheel_torques_nm=tuple(torques),
+        cam_speed_rad_s=cam_speed, motor_torque_nm=peak, winding_s=turn.seconds, mean_current_a=turn.mean_current_a,
+        peak_current_a=turn.peak_current_a, motor_j=turn.electrical_j, boards_j=boards_j, findings=findings,
+    )  # fmt: skip
 
 
 def _motor_findings(motor: Motor, cam_speed_rad_s: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
@@ -160,18 +149,8 @@ def _motor_findings(motor: Motor, cam_speed_rad_s: float, torque_nm: float, limi
     ]  # fmt: skip
 
 
-def _wheel_torques_nm(law: CamLaw, stages: tuple[GearPair, ...], limits: TrainLimits) -> tuple[float, ...]:
-    """Return the largest torque on the wheel of each pair, from the motor to the cam."""
-    torques = [law.peak_torque_nm / limits.cam_efficiency]
-    for pair in stages[:0:-1]:
-        torques.append(torques[-1] / (pair.ratio * limits.pair_efficiency))
-    return tuple(reversed(torques))
-
-
-def _gear_findings(
-    stages: tuple[GearPair, ...], wheel_torques_nm: tuple[float, ...], limits: TrainLimits
-) -> list[Finding]:
-    """Return strength and mesh of every pair, from the cam to the motor."""
+def _gear_findings(stages: tuple[GearPair, ...], wheel_torques_nm: list[float], limits: TrainLimits) -> list[Finding]:
+    """Return strength and mesh of every pair, from the cam to the motor, and whether the cam's gear fits."""
     findings = []
     for number, pair, torque in reversed([*zip(range(1, len(stages) + 1), stages, wheel_torques_nm, strict=True)]):
         stress = pair.pinion.lewis_stress_mpa(torque / pair.ratio)
@@ -189,13 +168,6 @@ def _gear_findings(
                 "more teeth",
             ),
         ]  # fmt: skip
-    return findings
-
-
-def _room_finding(pair: GearPair, limits: TrainLimits) -> Finding:
-    tip = pair.wheel.tip_radius_mm
-    return at_most(
-        "cam_gear_room", tip, limits.cam_gear_tip_max_mm, "mm",
-        f"the cam gear's tip radius is {tip:.1f} mm; {limits.cam_gear_tip_max_mm:.1f} mm fit",
-        "a stronger motor, or another pair of gears",
-    )  # fmt: skip
+    tip, fits = stages[-1].wheel.tip_radius_mm, limits.cam_gear_tip_max_mm
+    message = f"the cam gear's tip radius is {tip:.1f} mm; {fits:.1f} mm fit"
+    return [*findings, at_most("cam_gear_room", tip, fits, "mm", message, "a stronger motor, or another pair of gears")]

@@ -214,11 +214,8 @@ def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: in
     driver = chosen.driver
     for signal, function in (("motor", "forward"), ("sleep", "sleep")):
         if signal in pins:
-            ends = (
-                Terminal("controller", pins[signal]),
-                *(Terminal("driver", p) for p in driver.with_function(function)),
-            )
-            yield Net(signal, "signal", ends)
+            inputs = (Terminal("driver", pin) for pin in driver.with_function(function))
+            yield Net(signal, "signal", (Terminal("controller", pins[signal]), *inputs))
     if "ready" in pins:
         ends = (Terminal("controller", pins["ready"]), Terminal("sensor", contact))
         yield Net("ready", "signal", ends if pull_up is None else (*ends, Terminal("pull-up resistor", "1")))

@@ -53,13 +53,10 @@ def chosen_parts(workshop: Workshop) -> Chosen:
 def chosen_of(catalogue: Catalogue, names: BoughtParts) -> Chosen:
     """Return the electrical parts of those names in a catalogue."""
     roles = [role for role in COMPONENTS if getattr(names, role)]
-    return Chosen(
-        battery=catalogue.batteries[names.battery],
-        controller=catalogue.boards[names.controller],
-        driver=catalogue.boards[names.driver],
-        regulator=catalogue.boards[names.regulator] if names.regulator else None,
-        components={role: catalogue.components[getattr(names, role)] for role in roles},
-    )
+    battery, boards = catalogue.batteries[names.battery], catalogue.boards
+    regulator = boards[names.regulator] if names.regulator else None
+    components = {role: catalogue.components[getattr(names, role)] for role in roles}
+    return Chosen(battery, boards[names.controller], boards[names.driver], regulator, components)
 
 
 @dataclass(frozen=True)
@@ -106,14 +103,8 @@ class Supply:
         stall_a = mean_v / (ohm + self.ohm)
         speed = (mean_v - unloaded * (ohm + self.ohm)) / (motor.voltage_v - unloaded * ohm)
         torque = (stall_a - unloaded) / (motor.stall_current_a - unloaded)
-        return motor.model_copy(
-            update={
-                "voltage_v": mean_v,
-                "no_load_rpm": speed * motor.no_load_rpm,
-                "stall_torque_nm": torque * motor.stall_torque_nm,
-                "stall_current_a": stall_a,
-            }
-        )
+        now = {"voltage_v": mean_v, "no_load_rpm": speed * motor.no_load_rpm, "stall_current_a": stall_a}
+        return motor.model_copy(update=now | {"stall_torque_nm": torque * motor.stall_torque_nm})
 
 
 def _ohm(motor: Motor) -> float:

@@ -15,8 +15,8 @@ import numpy as np
 from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most, lower
 from jumpcad.mechanism.model import BODY, FOOT
+from jumpcad.robot.cage.limits import landing_n, ring_n_per_mm
 from jumpcad.robot.cage.place import Cage, CageBar
-from jumpcad.robot.cage.strength import landing_n, ring_n_per_mm
 from jumpcad.robot.electronics.limits import holding_findings
 from jumpcad.robot.foot.limits import toe_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM

@@ -44,11 +44,6 @@ class HoleSizes:
         return diameter_mm + 2.0 * self.fits.loose_mm
 
     @property
-    def m3_clearance_mm(self) -> float:
-        """Hole that an M3 screw passes."""
-        return self.fits.m3_clearance_mm
-
-    @property
     def hub_bore_mm(self) -> float:
         """Bore of the leg's hub."""
         return self.press(self.bearing.outer_mm) if self.bearing else self.running(self.axle_mm)

@@ -23,9 +23,8 @@ from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.robot.electronics.fittings import Fittings, fittings_of
+from jumpcad.robot.electronics.fittings import Fittings, electronics_obstacle, fittings_of, standoff_places, tray_place
 from jumpcad.robot.electronics.place import Electronics
-from jumpcad.robot.electronics.tray_places import electronics_obstacle, standoff_places, tray_place
 from jumpcad.robot.leg.place import PinHole, pin_hole
 from jumpcad.robot.sensor.place import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.robot.sizing import Sections, beside_leg_mm
@@ -188,7 +187,7 @@ def make_layout(
     if sensor is not None:
         felt = sensor_place(obstacles, drive, lateral, cam_axis, seats, motor, axle_mm, sensor)
     obstacles += [sensor_obstacle(felt, lateral)] if felt else []
-    tray = tray_place(obstacles, electronics, linkage.l1, inside)
+    tray = tray_place(obstacles, electronics, float(front[0]), inside)
     obstacles.append(electronics_obstacle(electronics, tray, inside))
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
     obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]

@@ -18,8 +18,8 @@ from jumpcad.mechanism.model import Mechanism
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.stop.strength import StopBlow
 from jumpcad.strength.growth import Grown
+from jumpcad.strength.loads import StopBlow
 from jumpcad.workshop import Workshop
 
 T = TypeVar("T")

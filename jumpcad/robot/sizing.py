@@ -16,9 +16,17 @@ from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
-from jumpcad.robot.stop.strength import BLOW_FACTOR, PEAK_SHARE
 from jumpcad.strength.growth import Growth, grown_mm, in_hundredths
-from jumpcad.strength.loads import MovingMass, push_off, rail_moment_nmm, rail_twist_nmm, toe_load_n, toe_moment_nmm
+from jumpcad.strength.loads import (
+    BLOW_FACTOR,
+    PEAK_SHARE,
+    MovingMass,
+    push_off,
+    rail_moment_nmm,
+    rail_twist_nmm,
+    toe_load_n,
+    toe_moment_nmm,
+)
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
@@ -164,6 +172,8 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     twist = VON_MISES * rail_twist_nmm(design, toes, rail_middle_mm(thickness, lug))
     rail = max(rail, twisted_height_mm(twist, lug, material.strength_in_plane_mpa / TWIST_FACTOR))
     toe_root = in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
+    jaw = fits.pin_min_mm + DOG_FACETS_MM  # as thick as the thinnest column that can be printed
+    least_dog = dog_inside_mm(fits.drawn, workshop.bought.axle_mm) + 2.0 * jaw
     rail_root = in_hundredths(growth.rail * max(RAIL_MIN_MM, rail))
     return Sections(
         thickness_mm=thickness, leg_root_mm=leg_root, leg_tip_mm=leg_tip,
@@ -172,7 +182,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
         lug_thickness_mm=lug, foot_depth_mm=depth, rail_root_mm=rail_root,
         rail_tip_mm=max(RAIL_MIN_MM, RAIL_TAPER * rail_root), toe_width_mm=TOE_WIDTH_MM, toe_root_mm=toe_root,
         toe_tip_height_mm=max(TOE_TIP_MIN_MM, TOE_TAPER * toe_root),
-        dog_mm=in_hundredths(growth.dog * max(_least_dog_mm(workshop), DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
+        dog_mm=in_hundredths(growth.dog * max(least_dog, DOG_MM_PER_NMM * torque ** (1.0 / 3.0))),
         stop_mm=in_hundredths(growth.stop * _stop_mm(workshop, springs.energy_j, thickness, shell)), pad_mm=pad,
     )  # fmt: skip
 
@@ -234,12 +244,6 @@ def beside_leg_mm(thickness_mm: float) -> float:
 def dog_inside_mm(fits: Fits, axle_mm: float) -> float:
     """Return the inner diameter of the jaws on the cam: the cam gear's hub, a thin wall on its bore, turns inside."""
     return axle_mm + 2.0 * (fits.sliding_mm + fits.wall_min_mm + fits.sliding_mm)
-
-
-def _least_dog_mm(workshop: Workshop) -> float:
-    """Return the diameter at which the jaws are as thick as the thinnest column that can be printed."""
-    jaw = workshop.fits.pin_min_mm + DOG_FACETS_MM
-    return dog_inside_mm(workshop.fits.drawn, workshop.bought.axle_mm) + 2.0 * jaw
 
 
 def _leg_tip_mm(root_mm: float) -> float:

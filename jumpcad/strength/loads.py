@@ -2,9 +2,10 @@
 
 Until take-off the foot stands on the ground and the mechanism has one degree of freedom, the leg's angle. Legs and
 foot are taken as massless beside the body, so that the equation of motion follows from energy alone and every joint
-force from equilibrium (inverse dynamics; e.g. Norton, Design of Machinery, ch. 11).
+force from equilibrium (inverse dynamics; e.g. Norton, Design of Machinery, ch. 11). Then the leg meets its stop's pad.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,8 +13,9 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.spring_choice import springs_on_leg
+from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.mechanism.model import BODY, Mechanism, Spring
+from jumpcad.mechanism.model import BODY, Mechanism, Spring, Stop
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 17
@@ -195,3 +197,38 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
     torque = on_leg * (leg + ankle * np.abs(foot_rate - 1.0))
     torque += on_front * (front * np.abs(front_rate) + eye * np.abs(front_rate - foot_rate))
     return round(TILTING * coefficient * float(np.trapezoid(torque, loads.leg_rad)) / mechanism.spring.wind_rad, 6)
+
+
+BLOW_FACTOR = 2.0
+"""Safety factor on the peak force, against the material's strength; judgement: the force is computed without
+friction."""
+PEAK_SHARE = 0.82
+"""Peak force of a pad without rebound over that of a lossless spring; judgement, from computed blows of three
+templates."""
+
+
+@dataclass(frozen=True)
+class StopBlow:
+    """The impact of the leg on its stop.
+
+    `energy_j` is the energy that the pad absorbs, `torque_nm` the peak torque about the leg's joint, `force_n` the peak
+    force on the pad, `give_rad` and `give_mm` the pad's deflection, that of a lossless spring of its stiffness.
+    """
+
+    stop: Stop
+    energy_j: float
+    torque_nm: float
+    force_n: float
+    give_rad: float
+    give_mm: float
+
+
+def stop_blow(blow: Blow, angle_rad: float, radius_mm: float, pad_n_per_mm: float) -> StopBlow:
+    """Return the impact on a pad of some stiffness at a radius from the leg's joint: F = 0.82·v·sqrt(k·I)/r."""
+    radius = radius_mm / 1000.0
+    stiffness = 1000.0 * pad_n_per_mm * radius**2
+    torque = PEAK_SHARE * blow.stop_rad_s * math.sqrt(stiffness * blow.inertia_kg_m2)
+    give = blow.stop_rad_s * math.sqrt(blow.inertia_kg_m2 / stiffness)
+    return StopBlow(
+        Stop("leg", angle_rad, stiffness), blow.energy_j, torque, torque / radius, give, 1000.0 * give * radius
+    )

@@ -7,16 +7,6 @@ from jumpcad.workshop.varied import varied, workshop_value
 from jumpcad.workshop.workshop import OWN_PARTS, Workshop
 
 __all__ = [
-    "DEFAULT",
-    "OWN_PARTS",
-    "BoughtParts",
-    "Fits",
-    "Material",
-    "Printer",
-    "Process",
-    "Workshop",
-    "load_workshop",
-    "own_workshop",
-    "varied",
-    "workshop_value",
-]
+    "DEFAULT", "OWN_PARTS", "BoughtParts", "Fits", "Material", "Printer", "Process", "Workshop", "load_workshop",
+    "own_workshop", "varied", "workshop_value",
+]  # fmt: skip

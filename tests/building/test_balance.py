@@ -10,7 +10,7 @@ from jumpcad.bundle.guide.markdown import write_guide
 from jumpcad.checks import check
 from jumpcad.design import load_design
 from jumpcad.findings import errors
-from jumpcad.robot.foot.sideways import sideways_findings
+from jumpcad.robot.foot.thing import sideways_findings
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop, varied
 

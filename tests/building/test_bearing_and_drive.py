@@ -110,17 +110,12 @@ def test_the_hub_keeps_off_the_spacer_on_the_cams_axle_and_off_the_rollers_screw
     fits = settled.holes.fits.model_copy(update={"wall_min_mm": 0.9, "wall_mm": 1.7, "press_mm": 0.08})
     holes = replace(settled.holes, fits=fits)
     to_spacer = 16.0 - SPACER_RADIUS_MM - GAP_MM - 2.0 * 1.7 - 0.08
-    to_screw = 14.0 - holes.m3_clearance_mm / 2.0 - 0.9 - 0.08
+    to_screw = 14.0 - holes.fits.m3_clearance_mm / 2.0 - 0.9 - 0.08
     for axis_mm, lever_mm, free in ((16.0, 100.0, 2.0 * to_spacer), (90.0, 14.0, 2.0 * to_screw)):
         cam = SimpleNamespace(cam_axis_mm=np.array([0.0, axis_mm]), lever_length_mm=lever_mm)
-        just, wide = (
-            replace(
-                settled,
-                drive=SimpleNamespace(cam=cam),
-                holes=replace(holes, bearing=holes.bearing.model_copy(update={"outer_mm": free + more})),
-            )
-            for more in (-0.01, 0.01)
-        )
+        bearings = (holes.bearing.model_copy(update={"outer_mm": free + more}) for more in (-0.01, 0.01))
+        beside = replace(settled, drive=SimpleNamespace(cam=cam))
+        just, wide = (replace(beside, holes=replace(holes, bearing=one)) for one in bearings)
         _require_hub_room(just)
         with pytest.raises(CannotBuildError, match=rf"diameter; {free:.1f} mm fit") as refused:
             _require_hub_room(wide)

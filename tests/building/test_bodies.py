@@ -30,18 +30,11 @@ from jumpcad.workshop.workshop import Role
 
 def pieces(robot: Robot, body: str) -> list[tuple[trimesh.Trimesh, float]]:
     """Return mesh (m, in the body's frame) and mass of everything on a body."""
-    found = [
-        (part.mesh.copy().apply_transform(place.T_body_part), part.mass_kg)
-        for part in robot.parts
-        for place in part.placements
-        if place.body == body
+    found = [(one.mesh.copy(), place, one.mass_kg) for one in robot.parts for place in one.placements]
+    found += [(to_trimesh(item.solid), item, item.mass_kg) for item in robot.hardware]
+    return [
+        (mesh.apply_transform(at.T_body_part).apply_scale(0.001), mass) for mesh, at, mass in found if at.body == body
     ]
-    found += [
-        (to_trimesh(item.solid).apply_transform(item.T_body_part), item.mass_kg)
-        for item in robot.hardware
-        if item.body == body
-    ]
-    return [(mesh.apply_scale(0.001), mass) for mesh, mass in found]
 
 
 @each("name", ["kenan-2.0", LONG_TOES])

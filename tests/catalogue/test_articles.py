@@ -12,12 +12,7 @@ from jumpcad.catalogue.articles import Volts
 
 def test_shipped_parts_keep_the_rules_of_own_ones() -> None:
     shipped = load_catalogue()
-    parts = [
-        *shipped.motors.values(),
-        *shipped.bearings.values(),
-        *shipped.batteries.values(),
-        *shipped.boards.values(),
-    ]
+    parts = [part for kind in ("motors", "bearings", "batteries", "boards") for part in getattr(shipped, kind).values()]
     assert not [wrong for part in parts for wrong in part.contradictions()]
     assert all(part.source for part in parts)
 

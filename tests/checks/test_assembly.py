@@ -80,16 +80,10 @@ def test_a_pin_whose_head_is_wider_than_its_hole_is_blocked(monkeypatch: pytest.
 
 def test_a_thick_tool_does_not_reach_the_motors_cap(monkeypatch: pytest.MonkeyPatch) -> None:
     """Its screws are 9.6 mm from the motor's axis, so a tool of 20 mm meets the shaft."""
-    plans = [
-        replace(
-            plan,
-            moves=tuple(
-                replace(move, tool=Tool("broomstick", 20.0, 40.0)) if move.parts.startswith("cap_screw") else move
-                for move in plan.moves
-            ),
-        )
-        for plan in assembly_steps.ORDER
-    ]
+    broom, plans = Tool("broomstick", 20.0, 40.0), []
+    for plan in assembly_steps.ORDER:
+        moves = (replace(one, tool=broom) if one.parts.startswith("cap_screw") else one for one in plan.moves)
+        plans.append(replace(plan, moves=tuple(moves)))
     monkeypatch.setattr(assembly_steps, "ORDER", tuple(plans))
     stops = [stop for *_, stop in tools(assembly_ways(replace(built("kenan-2.0")))) if stop]
     assert {stop.name for stop in stops} == {"cap_screw_1", "cap_screw_2"}

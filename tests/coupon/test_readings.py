@@ -19,7 +19,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot.foot.sideways import rolls
+from jumpcad.robot.foot.thing import rolls
 from jumpcad.solids.outline import polygon
 from jumpcad.workshop import Workshop, load_workshop
 

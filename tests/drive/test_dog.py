@@ -38,14 +38,9 @@ def test_the_gear_fits_in_one_position_only(play_deg: float) -> None:
         over = 0.0
         for begin, end in jaws:
             middle = (begin + end) / 2.0
-            low, high = min(
-                (
-                    (low + turn, high + turn)
-                    for low, high in dog.pockets_rad
-                    for turn in (-2.0 * math.pi, 0.0, 2.0 * math.pi)
-                ),
-                key=lambda pocket: abs(sum(pocket) / 2.0 - middle),
-            )
+            turns = (-2.0 * math.pi, 0.0, 2.0 * math.pi)
+            pockets = [(low + turn, high + turn) for low, high in dog.pockets_rad for turn in turns]
+            low, high = min(pockets, key=lambda pocket: abs(sum(pocket) / 2.0 - middle))
             over += max(low - begin, 0.0) + max(end - high, 0.0)
         return over
 

@@ -10,8 +10,7 @@ from support.each import each
 from support.springs import LENGTH_MM, LIMITS, NAMES, WIRE, spring_of
 
 from jumpcad.design import load_design
-from jumpcad.drive.spring import TorsionSpring, inner_fibre
-from jumpcad.drive.spring_arms import Arms
+from jumpcad.drive.spring import Arms, TorsionSpring, inner_fibre
 from jumpcad.drive.spring_choice import (
     _arms_between,
     _arms_of,

@@ -13,8 +13,7 @@ from jumpcad.catalogue import StockSpring, load_catalogue
 from jumpcad.checks import constraint_findings, quick_findings
 from jumpcad.checks.interference import interference_findings
 from jumpcad.design import Design, load_design
-from jumpcad.drive.spring import TorsionSpring
-from jumpcad.drive.spring_arms import ARM_BEYOND_MM
+from jumpcad.drive.spring import ARM_BEYOND_MM, TorsionSpring
 from jumpcad.drive.spring_choice import fitted_spring, springs_on_leg
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.findings import Finding, errors

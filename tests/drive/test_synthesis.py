@@ -69,11 +69,9 @@ def test_what_cannot_be_driven_is_refused_with_a_parameter_to_change():
         synthesise(flat, LIMITS)
     assert (refused.value.limit, refused.value.unit) == ("compression", "°")
     assert refused.value.margin == pytest.approx(math.degrees(flat.compression_rad) - 0.5)
+    wide = dataclasses.replace(LIMITS.cam, hub_radius_mm=50.5)
     with pytest.raises(CannotBuildError, match=r"no lever from 56\.\d mm .* to 45 mm"):
-        synthesise(
-            load_design("kenan-2.0"),
-            dataclasses.replace(LIMITS, cam=dataclasses.replace(LIMITS.cam, hub_radius_mm=50.5)),
-        )
+        synthesise(load_design("kenan-2.0"), dataclasses.replace(LIMITS, cam=wide))
 
 
 @pytest.mark.parametrize("name", ["kenan-1.0", "kenan-2.0", "best-ga", "best-bo"])
@@ -120,10 +118,8 @@ def test_torque_at_the_cam_is_what_the_design_note_says():
 
 
 def test_a_stronger_spring_never_needs_less_torque():
-    weak, strong = (
-        synthesise(load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": k}), LIMITS)
-        for k in (8.0, 16.0)
-    )
+    designs = (load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": k}) for k in (8.0, 16.0))
+    weak, strong = (synthesise(design, LIMITS) for design in designs)
     assert strong.cam.peak_torque_nm == pytest.approx(2 * weak.cam.peak_torque_nm)
     assert strong.spring.wire_mm >= weak.spring.wire_mm
     assert strong.train.ratio >= weak.train.ratio
@@ -150,12 +146,10 @@ def test_the_same_design_gives_the_same_drive():
 def test_gears_widen_where_their_teeth_are_too_weak():
     """The Lewis stress falls as the face widens, so that a material of half the strength still turns the cam."""
     design = load_design("best-bo")
-    trains = {
-        stress: synthesise(
-            design, dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=stress))
-        ).train
-        for stress in (10.0, 2.0, 1.5)
-    }
+    trains = {}
+    for stress in (10.0, 2.0, 1.5):
+        limits = dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=stress))
+        trains[stress] = synthesise(design, limits).train
     assert [train.stages[0].face_width_mm for train in trains.values()] == sorted(LIMITS.face_widths_mm)
     for stress, train in trains.items():
         pinion = train.stages[0].pinion

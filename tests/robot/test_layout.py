@@ -16,7 +16,7 @@ from support.workshops import workshop_with
 from jumpcad.building.assembly import layout_of
 from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, TRAY_MM
-from jumpcad.drive.spring_arms import Arms
+from jumpcad.drive.spring import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings

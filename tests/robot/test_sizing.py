@@ -230,13 +230,7 @@ def test_toes_and_rails_bear_the_ground_under_the_pads(pad: str, angle_deg: floa
     A rail is bent by what a tip is behind it, and twisted by what it is beside it, 5.5 or 6.5 mm from the middle, with
     half its strength: √3·T·(3 + 1.8·c/b)/(b·c²). The ground's force along the ground has a longer arm with a pad.
     """
-    shop = load_workshop()
-    solid = shop.model_copy(
-        update={
-            "process": shop.process.model_copy(update={"infill": 1.0}),
-            "ground": shop.ground.model_copy(update={"pad": pad}),
-        }
-    )
+    solid = workshop_with(process={"infill": 1.0}, ground={"pad": pad})
     linkage = Linkage(load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg}))
     sizes, length = sections(linkage, solid), linkage.design.l5_mm
     ground = sizes.foot_depth_mm + (2.0 if pad else 0.0)

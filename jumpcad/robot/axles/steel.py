@@ -134,13 +134,8 @@ def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) 
         return (*choose("a stronger", "bought.axle"), *higher("bought.axle_mm"), *softer)
     rods = case.workshop.catalogue.rods.values()
     strong = [rod.name for rod in rods if rod.yield_mpa >= needed and not rod.bore_share]
-    kind = (
-        "no stronger pins"
-        if name in PINS
-        else f'bought.axle of {" or ".join(strong)} with bought.retention = "plates"'
-        if strong
-        else "no shipped rod"
-    )
+    kind = f'bought.axle of {" or ".join(strong)} with bought.retention = "plates"' if strong else "no shipped rod"
+    kind = "no stronger pins" if name in PINS else kind
     return (
         f"{needed:.0f} MPa yield stress ({kind}), {_thicker(case, name, share)}a span between the plates shorter by "
         f"{100.0 * (1.0 - 1.0 / share):.0f} % (a shorter motor, a narrower battery or board)",

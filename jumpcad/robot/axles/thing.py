@@ -79,9 +79,7 @@ def pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     places = (
         Place("ankle_pin", FOOT, np.zeros(2), (-ankle, ankle)),
         Place("front_eye_pin", FOOT, np.array([layout.design.l4_mm, 0.0]), (-lug, lug)),
-        Place(
-            "leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm), np.pi / 2.0
-        ),  # across the leg
+        Place("leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm), np.pi / 2.0),  # across it
     )
     catalogue = workshop.catalogue
     for place in places:

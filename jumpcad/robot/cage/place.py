@@ -133,11 +133,8 @@ class CageArc(ByValue):
     @property
     def points_mm(self) -> Array:
         """The same points (n, 3) in the body's frame."""
-        flat = self.line_mm
-        return (
-            np.asarray(flat[:, :1] * self.T_body_arc[:3, 0] + flat[:, 1:] * self.T_body_arc[:3, 1])
-            + (self.T_body_arc[:3, 3])
-        )
+        flat, T = self.line_mm, self.T_body_arc
+        return np.asarray(flat[:, :1] * T[:3, 0] + flat[:, 1:] * T[:3, 1]) + T[:3, 3]
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,10 +189,8 @@ def cage_place(layout: Layout, workshop: Workshop) -> Cage | None:
     )
     moving = moving_obstacles(layout)
     bars, arcs = [], []
-    for name, x, radius, low, sign in (
-        ("rear", rear_x, radii[0], rear_low, -1),
-        ("front", front_x, radii[1], front_low, 1),
-    ):
+    ends = (("rear", rear_x, radii[0], rear_low, -1), ("front", front_x, radii[1], front_low, 1))
+    for name, x, radius, low, sign in ends:
         place = np.array([x, _bar_height(layout, moving, name, x, float(low), sign * lean)])
         bar, arc = _hoop(layout, name, sign, place, round(radius, 1), angle, sign * lean, level)
         bars.append(bar)
@@ -233,7 +228,7 @@ def _bar_height(
     width = layout.toe_half_width_mm if name == "rear" else layout.ankle_face_mm
     beside = [replace(one, y_mm=(-width, width)) if one.name == "foot" else one for one in moving]
     down = HORN_BELOW_MM * np.array([math.sin(lean_rad), math.cos(lean_rad)])
-    horn = (HORN_SIZE_MM[0] / 2.0, HORN_SIZE_MM[1] / 2.0)
+    horn = HORN_SIZE_MM[0] / 2.0, HORN_SIZE_MM[1] / 2.0
     for plate in (layout.lateral.left_plate, layout.lateral.right_plate):
         free = np.minimum(free, clearance(beside, places - down, horn, -lean_rad, plate, within_mm=CLEAR_MM))
     if not (free >= CLEAR_MM).any():
@@ -259,16 +254,14 @@ def _hoop(
             f"beyond the plates",
             "cage_clear", half - needed, ways=higher(key) + lower("cage.arc_deg"),
         )  # fmt: skip
-    rotation = np.array(
-        [[0.0, math.sin(lean), math.cos(lean)], [1.0, 0.0, 0.0], [0.0, math.cos(lean), -math.sin(lean)]]
-    )
+    sin, cos = math.sin(lean), math.cos(lean)
+    rotation = np.array([[0.0, sin, cos], [1.0, 0.0, 0.0], [0.0, cos, -sin]])
     middle = sum(layout.lateral.outside) / 2.0
     T_body_bar = pose_at(rotation, (place[0], middle, place[1]))
     centre = SOCKET_MM / 2.0 * math.sin(tilt) - radius * math.cos(angle / 2.0)
     T_body_arc = chained(T_body_bar, pose_at(np.eye(3), (0.0, centre, level)))
-    return CageBar(f"cage_bar_{name}", T_body_bar, half, tilt, 0.0, ahead), CageArc(
-        f"cage_hoop_{name}", T_body_arc, radius, angle
-    )
+    hoop = CageArc(f"cage_hoop_{name}", T_body_arc, radius, angle)
+    return CageBar(f"cage_bar_{name}", T_body_bar, half, tilt, 0.0, ahead), hoop
 
 
 def _bow(rear: CageBar, front: CageBar, lean: float, level: float) -> tuple[CageBar, CageBar, CageArc]:

@@ -1,4 +1,4 @@
-"""What the plates lack for switch, USB plug and wires, and where they need material for it (mm)."""
+"""Where trays and standoffs are, and openings of the plates for switch, USB plug and wires (mm, x-z of the body)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,15 +7,75 @@ from typing import Literal
 import numpy as np
 
 from jumpcad.catalogue import Component
-from jumpcad.dimensions import CLEAR_MM, TRAY_MM
+from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM, TRAY_MM
 from jumpcad.findings import higher
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.room import Obstacle, best_place, box_obstacle, disc, grid_candidates
+from jumpcad.robot.space.room import EVERYWHERE, LONGER_BODY, Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.outline import Region, hole, rectangle, stadium
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
+
+TRAY_AHEAD_MM, TRAY_HIGHEST_MM = 30.0, 60.0
+"""Places tried for trays: from the hub to this far ahead of the front pivot, up to this height; judgement."""
+HEIGHT_COST = 1.2
+"""Cost of a tray's height over that of its distance from the front pivot; judgement: a low body tips less."""
+STANDOFF_BEHIND_MM, STANDOFF_AHEAD_MM, STANDOFF_HIGHEST_MM = 20.0, 40.0, 80.0
+"""Places tried for standoffs: this far behind the cam's axis, ahead of the front pivot or trays, and up; judgement.
+"""
+STANDOFFS_APART_MM = 8.0
+"""Distance added to the usual clearance between standoffs; judgement: closer ones hold the plates in one place only."""
+
+
+def tray_place(obstacles: list[Obstacle], electronics: Electronics, front_mm: float, inside: Interval) -> Array:
+    """Return the middle (2,) of the lower tray's underside, with pivots that far behind and ahead of the body's middle.
+
+    Over the front pivot the battery balances cam and motor: the body's centre of mass then lies between the pivots.
+    """
+    half = electronics.half_mm
+    places = grid_candidates((-front_mm, front_mm + TRAY_AHEAD_MM), (0.0, TRAY_HIGHEST_MM), GRID_MM)
+    index = best_place(
+        "battery and electronics", obstacles, places + np.array([0.0, half[1]]), half, 0.0, inside,
+        lambda p: np.abs(p[:, 0] - front_mm) + HEIGHT_COST * np.abs(p[:, 1] - half[1]),
+        (*LONGER_BODY, "choose a smaller battery or smaller boards: "
+         f"{electronics.names} take {electronics.length_mm:.1f} x {electronics.height_mm:.1f} mm"),
+    )  # fmt: skip
+    return np.asarray(places[index])
+
+
+def electronics_obstacle(electronics: Electronics, tray_mm: Array, inside: Interval) -> Obstacle:
+    """Return trays, battery and boards as one box across the whole body."""
+    return box_obstacle("electronics", electronics.middle_mm(tray_mm), electronics.half_mm, 0.0, inside)
+
+
+def standoff_places(
+    obstacles: list[Obstacle], cam_axis: Array, front: Array, electronics: Electronics, tray_mm: Array, inside: Interval
+) -> tuple[Array, ...]:
+    """Return the places of the standoffs that, with the axles, hold the plates apart at the top of the body.
+
+    They are wanted in front of the boards, and between cam and boards, above both.
+    """
+    centre = electronics.middle_mm(tray_mm)
+    top_z = centre[1] + electronics.half_mm[1] + STANDOFF_RADIUS_MM + GAP_MM
+    wanted = [
+        np.array([centre[0] + electronics.half_mm[0], top_z]),
+        np.array([(cam_axis[0] + centre[0]) / 2.0, max(top_z, cam_axis[1])]),
+    ]
+    x = (cam_axis[0] - STANDOFF_BEHIND_MM, max(front[0], centre[0]) + STANDOFF_AHEAD_MM)
+    places = grid_candidates(x, (0.0, STANDOFF_HIGHEST_MM), GRID_MM)
+    around = STANDOFF_RADIUS_MM + CLEAR_MM + STANDOFFS_APART_MM
+    found: list[Array] = []
+    for target in wanted:
+        taken = [disc("standoff", place, around, EVERYWHERE) for place in found]
+        index = best_place(
+            "standoffs", [*obstacles, *taken], places, (STANDOFF_RADIUS_MM, STANDOFF_RADIUS_MM), 0.0, inside,
+            lambda p, target=target: np.linalg.norm(p - target, axis=1),  # type: ignore[misc]
+            higher("carrying_link_mm"),
+        )  # fmt: skip
+        found.append(places[index])
+    return tuple(found)
+
 
 HOLE_MM = 5.0
 """Of a wire hole; judgement: three leads with their heat-shrink."""
@@ -92,7 +152,7 @@ def _near(wanted: Array, obstacles: list[Obstacle], half: tuple[float, float], y
     places = places[places[:, 1] > half[1]]  # above the pivots' line, where the plates are
     index = best_place(
         what, obstacles, places, (half[0] + CLEAR_MM / 2.0, half[1] + CLEAR_MM / 2.0), 0.0, y,
-        lambda p: np.linalg.norm(p - wanted, axis=1), higher("d_coef", "carrying_link_mm", note="a longer body"),
+        lambda p: np.linalg.norm(p - wanted, axis=1), LONGER_BODY,
     )  # fmt: skip
     return np.asarray(places[index])
 
@@ -128,7 +188,10 @@ def fitting_pads(fittings: Fittings, more_mm: float) -> Iterator[Region]:
 
 def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left", "right"]) -> Iterator[Region]:
     """Yield what a plate lacks: holes for leads with the slots of their tie, USB plug; in the right one the switch."""
-    yield from _wire_hole(fittings.left_mm if side == "left" else fittings.right_mm)
+    x, z = wire_hole_mm(fittings.left_mm if side == "left" else fittings.right_mm)
+    yield hole(HOLE_MM, (x, z))
+    for sign in (-1.0, 1.0):
+        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, z + RELIEF_UP_MM), 0.5)
     if fittings.switch_mm is not None and side == "right":
         x, z = fittings.switch_mm
         yield rectangle(KNOB_MM, (x, z), 1.0)
@@ -142,10 +205,3 @@ def fitting_openings(fittings: Fittings, holes: HoleSizes, side: Literal["left",
 def wire_hole_mm(place_mm: Array) -> tuple[float, float]:
     """Return the middle (x, z) of the hole for leads in the plate's room for it and its tie."""
     return float(place_mm[0]), float(place_mm[1] - HOLE_HALF_MM[1] + HOLE_MM)
-
-
-def _wire_hole(place_mm: Array) -> Iterator[Region]:
-    x, z = wire_hole_mm(place_mm)
-    yield hole(HOLE_MM, (x, z))
-    for sign in (-1.0, 1.0):
-        yield rectangle(RELIEF_SLOT_MM, (x + sign * RELIEF_APART_MM / 2.0, z + RELIEF_UP_MM), 0.5)

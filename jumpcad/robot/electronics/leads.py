@@ -146,19 +146,12 @@ def corners(layout: Layout, one: str, other: str, start: Array, end: Array) -> l
 
 def gap_mm(layout: Layout, start_mm: float, end_mm: float) -> float:
     """Return where a lead crosses between two places along the robot: in the first gap between boards, or half way."""
-    low, high = sorted((start_mm, end_mm))
-    gaps = [x for x in _gaps(layout) if low < x < high]
-    return min(gaps, key=lambda x: abs(x - start_mm), default=(low + high) / 2.0)
-
-
-def _gaps(layout: Layout) -> list[float]:
-    """Return where the gaps between boards are along the robot."""
+    (low, high), gaps = sorted((start_mm, end_mm)), []
     seats = layout.electronics.seats(layout.lateral.inside)
-    found = []
     for behind, ahead in itertools.pairwise(layout.electronics.boards):
         edges = (seats[behind].x_mm + seats[behind].size_mm[0] / 2.0, seats[ahead].x_mm - seats[ahead].size_mm[0] / 2.0)
-        found.append(float(layout.tray_mm[0]) + sum(edges) / 2.0)
-    return found
+        gaps.append(float(layout.tray_mm[0]) + sum(edges) / 2.0)
+    return min((x for x in gaps if low < x < high), key=lambda x: abs(x - start_mm), default=(low + high) / 2.0)
 
 
 def _beside(layout: Layout, part: str, start: Array, end: Array) -> list[Array]:

@@ -13,7 +13,7 @@ from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.layout import moving_obstacles
 from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.room import bar, clearance
+from jumpcad.robot.space.room import LONGER_BODY, bar, clearance
 
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
@@ -206,5 +206,5 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
         yield at_least(
             "wires_clear", gap, NEEDED_MM, "mm",
             f"the {role}'s leads pass {far}{gap:.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
-            higher("d_coef", "carrying_link_mm", note="a longer body"),
+            LONGER_BODY,
         )  # fmt: skip

@@ -103,12 +103,6 @@ def _window(length_mm: float, width_mm: float) -> list[Region]:
     return [rectangle((length_mm, width_mm), corner_radius_mm=WINDOW_MIN_MM / 2.0)]
 
 
-ELECTRONICS = Thing(
-    trays,
-    electronics,
-    (
-        Check(limits.electronics_findings, limits.BASIS),
-        Check(limits.holding_findings, limits.HOLDING_BASIS),
-        Check(limits.lead_findings, limits.LEADS_BASIS, cheap=False),
-    ),
-)
+SUPPLIED, HELD = Check(limits.electronics_findings, limits.BASIS), Check(limits.holding_findings, limits.HOLDING_BASIS)
+LEADS = Check(limits.lead_findings, limits.LEADS_BASIS, cheap=False)
+ELECTRONICS = Thing(trays, electronics, (SUPPLIED, HELD, LEADS))

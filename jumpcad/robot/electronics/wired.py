@@ -36,11 +36,8 @@ def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     electronics, inside = layout.electronics, layout.lateral.inside
     catalogue, chosen = workshop.catalogue, workshop.bought
     x, z = layout.tray_mm
-    items: dict[str, Battery | Board | Component] = {
-        "battery": electronics.battery,
-        **electronics.boards,
-        **electronics.tied,
-    }
+    items: dict[str, Battery | Board | Component] = {"battery": electronics.battery}
+    items |= {**electronics.boards, **electronics.tied}
     for role, seat in electronics.seats(inside).items():
         item, (length, width, height) = items[role], seat.size_mm
         at, top = (x + seat.x_mm, seat.y_mm), z + seat.bottom_mm + height

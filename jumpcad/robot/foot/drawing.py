@@ -152,9 +152,9 @@ def _lug(depth_mm: float, x_mm: float, ahead_mm: float) -> Region:
 
 def _ankle_boss(layout: Layout, holes: HoleSizes) -> Region:
     """Return the boss of the ankle's pin, out to the toes' outer sides, and down to the bed to be printable."""
-    depth = layout.sections.foot_depth_mm
     outer = max(PIN_END_MM + 1.0, holes.lying(layout.axle_mm) + 4.0 * holes.fits.wall_mm)
-    return hull([disc(outer), rectangle((outer, SOLE_HEIGHT_MM), (0.0, SOLE_HEIGHT_MM / 2.0 - depth))])
+    middle = SOLE_HEIGHT_MM / 2.0 - layout.sections.foot_depth_mm
+    return hull([disc(outer), rectangle((outer, SOLE_HEIGHT_MM), (0.0, middle))])
 
 
 def _on_bed(layout: Layout, region: Region) -> Region:

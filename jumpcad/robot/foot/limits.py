@@ -3,6 +3,7 @@
 At release the ground pushes on both toes' tips; at landing one of them may touch the ground first.
 """
 
+import itertools
 import math
 from collections.abc import Iterator
 
@@ -113,8 +114,10 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
     yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, SOFTER, "toe")
-    if bar := case.layout.toe_bar_mm:
-        stress = _toe_bar_mpa(case, blow * bar)
+    if bar := case.layout.toe_bar_mm:  # its end lands, which bends it and twists the toe
+        width, height = TOE_TIP_WIDTH_MM, sections.toe_tip_height_mm
+        bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(blow * bar))
+        stress = max(bending, VON_MISES * float(bar_shear_mpa(blow * bar, width, height)))
         yield stress_finding(
             "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
             lower("body.toe_half_width_mm"), "toe",
@@ -122,13 +125,6 @@ def _foot(case: LoadCase) -> Iterator[Finding]:
     if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
         yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, ways, "toe")
-
-
-def _toe_bar_mpa(case: LoadCase, moment_nmm: float) -> float:
-    """Return the stress of the bar across a toe's tip, bent by a landing on its end, which twists the toe as well."""
-    width, height = TOE_TIP_WIDTH_MM, case.layout.sections.toe_tip_height_mm
-    bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(moment_nmm))
-    return max(bending, VON_MISES * float(bar_shear_mpa(moment_nmm, width, height)))
 
 
 def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
@@ -140,7 +136,7 @@ def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
     force = tip_n * (case.layout.design.l5_mm - inner) / (outer - inner)
     holes = case.holes
     height, width = joint_height_mm(case.layout, holes), case.layout.sections.toe_width_mm
-    bores = (holes.fits.m3_tap_mm, holes.m3_clearance_mm)
+    bores = (holes.fits.m3_tap_mm, holes.fits.m3_clearance_mm)
     return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
 
 
@@ -215,9 +211,7 @@ def _body_discs(robot: Robot) -> tuple[Array, Array]:
     boxes = [(stop.tab_mm, TAB_MM, STOP_EDGE_MM), (stop.middle_mm, (STOP_PAD_MM, stop.depth_mm), 0.0)]
     discs += [
         (middle + a * (size[0] / 2.0 + edge) * stop.along + b * (size[1] / 2.0 + edge) * stop.behind, 0.0)
-        for middle, size, edge in boxes
-        for a in (-1.0, 1.0)
-        for b in (-1.0, 1.0)
+        for (middle, size, edge), a, b in itertools.product(boxes, (-1.0, 1.0), (-1.0, 1.0))
     ]
     discs.append((layout.hub_mm, layout.drive.spring.outer_diameter_mm / 2.0))
     discs.append((layout.cam_axis_mm, layout.drive.cam.outer_radius_mm))

@@ -65,28 +65,11 @@ class PrintedPad:
         return self.item.shown_mesh
 
 
-def foot_pads(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the pads under nose and toes, where these are not bare."""
-    if workshop.foot_pad is not None:
-        yield from _nose_pads(layout, workshop.foot_pad)
-        yield from _toe_pads(layout, workshop.foot_pad)
-
-
 def printed_pads(hardware: Iterable[BoughtPart], workshop: Workshop) -> list[PrintedPad]:
     """Return the pads among bought parts that are printed."""
     foot, stop = workshop.foot_pad, workshop.stop_pad
-    return [
-        PrintedPad(item, stop if item.name == "stop_pad" or foot is None else foot)
-        for item in hardware
-        if is_printed(item, foot, stop)
-    ]
-
-
-def is_printed(item: BoughtPart, foot_pad: Pad | None, stop_pad: Pad) -> bool:
-    """Tell whether a part is a pad that is printed, of the kinds under the feet and on the rest stop."""
-    if "_pad" not in item.name:
-        return False
-    return stop_pad.printed if item.name == "stop_pad" else foot_pad is not None and foot_pad.printed
+    pads = ((item, stop if item.name == "stop_pad" else foot) for item in hardware if "_pad" in item.name)
+    return [PrintedPad(item, pad) for item, pad in pads if pad is not None and pad.printed]
 
 
 def stop_pad(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
@@ -147,27 +130,24 @@ TOE_THREAD_MM = 4.0
 
 
 def foot_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield what is bought for the foot: screws, and pads."""
-    yield from toe_screws(layout, workshop)
-    yield from foot_pads(layout, workshop)
+    """Yield what is bought for the foot: screws of separate toes, and pads under nose and toes that are not bare."""
+    yield from _toe_screws(layout, workshop)
+    if workshop.foot_pad is not None:
+        yield from _nose_pads(layout, workshop.foot_pad)
+        yield from _toe_pads(layout, workshop.foot_pad)
 
 
-def toe_screws(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+def _toe_screws(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the screws of separate toes, from outside into the foot's stubs."""
     if not layout.toes_apart:
         return
-    holes = HoleSizes.of(workshop, layout.hub_bearing)
-    screw, height = (
-        workshop.catalogue.screws["M3"],
-        toes.joint_height_mm(layout, holes) / 2.0 - layout.sections.foot_depth_mm,
-    )
+    holes, screw = HoleSizes.of(workshop, layout.hub_bearing), workshop.catalogue.screws["M3"]
+    height = toes.joint_height_mm(layout, holes) / 2.0 - layout.sections.foot_depth_mm
     outer = toes.beside_mm(layout, holes) + layout.sections.toe_width_mm / 2.0
     length = screw.length_for(layout.sections.toe_width_mm + TOE_THREAD_MM)
     for toe in toes.toes(layout):
-        pose = toe.pose_mm
         shank = interval(toe.outside * outer, toe.outside * (outer - length))
         for number, x in enumerate(toes.SCREWS_MM, start=1):
-            name = f"{toe.name}_screw_{number}"
-            yield placed_screw(name, FOOT, np.array([x, height]), shank, toe.outside, screw, workshop.catalogue).moved(
-                pose
-            )
+            name, at = f"{toe.name}_screw_{number}", np.array([x, height])
+            placed = placed_screw(name, FOOT, at, shank, toe.outside, screw, workshop.catalogue)
+            yield placed.moved(toe.pose_mm)

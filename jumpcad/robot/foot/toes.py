@@ -77,7 +77,7 @@ def toes(layout: Layout) -> tuple[Toe, Toe]:
 
 def joint_height_mm(layout: Layout, holes: HoleSizes) -> float:
     """Return the height of stub and toe where they are screwed: the screw's hole with two walls above and below."""
-    return max(layout.sections.toe_root_mm, holes.m3_clearance_mm + 4.0 * holes.fits.wall_mm)
+    return max(layout.sections.toe_root_mm, holes.fits.m3_clearance_mm + 4.0 * holes.fits.wall_mm)
 
 
 def beside_mm(layout: Layout, holes: HoleSizes) -> float:
@@ -89,9 +89,11 @@ def on_the_foot(layout: Layout, holes: HoleSizes) -> tuple[list[Block], list[Blo
     """Return the foot's share of its toes, standing on the bed, and the cuts in it."""
     added: list[Block] = []
     removed: list[Block] = []
+    width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
+    stub = Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
     for toe in toes(layout):
         if layout.toes_apart:
-            added.append(Turned(_stub(layout, holes), toe.angle_rad, toe.root_mm))
+            added.append(Turned(stub, toe.angle_rad, toe.root_mm))
             removed.append(Turned(_holes(layout, holes, holes.fits.m3_tap_mm, 0.0), toe.angle_rad, toe.root_mm))
         else:
             blocks = (_finger(layout, np.zeros(2), toe.length_mm), *_bar(layout, toe))
@@ -142,7 +144,7 @@ def _drawing(layout: Layout, holes: HoleSizes, toe: Toe) -> Drawing:
     y = toe.outside * beside_mm(layout, holes)
     start, end = np.array([JOINT_MM[0] + width / 2.0, y]), np.array([JOINT_MM[1], y])
     joint = Finger(start, width, height, end, width, height)
-    cut = _holes(layout, holes, holes.m3_clearance_mm, y)
+    cut = _holes(layout, holes, holes.fits.m3_clearance_mm, y)
     shape = Blocks((joint, _finger(layout, end, toe.length_mm), *_bar(layout, toe)), (cut, *_grip(layout, toe)))
     pose = toe.pose_mm @ upright(-layout.sections.foot_depth_mm)
     return Drawing(toe.name, "links", shape, (Placement(FOOT, pose),))
@@ -165,12 +167,6 @@ def _bar(layout: Layout, toe: Toe) -> list[Finger]:
     tip = np.array([toe.length_mm, 0.0])
     end = tip + toe.sign * layout.toe_bar_mm * along
     return [Finger(tip, TOE_TIP_WIDTH_MM, height, end, TOE_TIP_WIDTH_MM, height)]
-
-
-def _stub(layout: Layout, holes: HoleSizes) -> Finger:
-    """Return the foot's stub of a separate toe."""
-    width, height = layout.sections.toe_width_mm, joint_height_mm(layout, holes)
-    return Finger(np.zeros(2), width, height, np.array([JOINT_MM[1] - width / 2.0, 0.0]), width, height)
 
 
 def _holes(layout: Layout, holes: HoleSizes, diameter_mm: float, y_mm: float) -> Bar:

@@ -47,28 +47,24 @@ def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     lever_angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
     lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
     pin = (layout.leg_pin_mm, 0.0)
-    hub_radius, stop = holes.hub_radius_mm, layout.stop
+    stop = layout.stop
     place = leg_bar_place(layout, holes)
     beam = tapered_bar((0.0, 0.0), ankle, sections.leg_root_mm, sections.leg_tip_mm)
     outer = union([beam, disc(2.0 * sections.eye_radius_mm, ankle)])
-    inner = union(
-        [
-            disc(2.0 * hub_radius),
-            beam if place is None else beam ^ _before(place.mouth_mm),
-            disc(max(sections.leg_root_mm, 2.0 * sections.eye_radius_mm), pin),
-            tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM),
-            rectangle((STOP_PAD_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0)),
-        ]
-    )
-    holed = [hole(holes.m3_clearance_mm, lever), hole(holes.press(layout.axle_mm), pin)]
+    hub = [disc(2.0 * holes.hub_radius_mm), beam if place is None else beam ^ _before(place.mouth_mm)]
+    around_pin = disc(max(sections.leg_root_mm, 2.0 * sections.eye_radius_mm), pin)
+    arm = tapered_bar((0.0, 0.0), lever, sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM)
+    heel = rectangle((STOP_PAD_MM + 2.0 * HEEL_MORE_MM, stop.heel_mm), (stop.radius_mm, -stop.heel_mm / 2.0))
+    inner = union([*hub, around_pin, arm, heel])
+    holed = [hole(holes.fits.m3_clearance_mm, lever), hole(holes.press(layout.axle_mm), pin)]
     eye = hole(holes.eye(layout.axle_mm), ankle)
-    hub = holes.hub_slabs(-half, half)
+    bore = holes.hub_slabs(-half, half)
     if place is None:
         whole = filleted(union([inner, outer]), FILLET_MM) - union([eye, *holed])
-        stack, pose = lying_stack((y0, y1, whole - region) for y0, y1, region in hub)
+        stack, pose = lying_stack((y0, y1, whole - region) for y0, y1, region in bore)
         return [Drawing("main_leg", "links", holes.chamfered(stack), (Placement(MAIN_LEG, pose),))]
     lever_end = filleted(inner, FILLET_MM) - union(holed)
-    stack, pose = lying_stack((y0, y1, lever_end - region) for y0, y1, region in hub)
+    stack, pose = lying_stack((y0, y1, lever_end - region) for y0, y1, region in bore)
     first = _socketed(stack, place, holes, half)
     far = filleted(outer, FILLET_MM) - eye - _before(place.far_mouth_mm)
     stack, end_pose = lying_stack([(-half, half, far)])
@@ -85,13 +81,8 @@ def front_link(layout: Layout, workshop: Workshop) -> Drawing:
     sections = layout.sections
     half, length = sections.thickness_mm / 2.0, layout.design.l3_mm
     eye = (length, 0.0)
-    outline = union(
-        [
-            stadium((0.0, 0.0), eye, sections.front_mm),
-            disc(2.0 * sections.eye_radius_mm),
-            disc(2.0 * sections.eye_radius_mm, eye),
-        ]
-    )
+    eyes = [disc(2.0 * sections.eye_radius_mm, place) for place in ((0.0, 0.0), eye)]
+    outline = union([stadium((0.0, 0.0), eye, sections.front_mm), *eyes])
     bore, place = holes.eye(layout.axle_mm), front_bar_place(layout, holes)
     region = filleted(outline, FILLET_MM) - union([hole(bore), hole(bore, eye)])
     if place is None:
@@ -137,13 +128,7 @@ def _socketed(stack: Stack, place: BarPlace, holes: HoleSizes, half_mm: float) -
 
 
 def leg_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield what is bought for main leg and front link."""
-    yield from hub_and_roller(layout, workshop)
-    yield from bars(layout, workshop)
-
-
-def hub_and_roller(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the bought parts on the main leg: hub bearings, the roller with its screw."""
+    """Yield hub bearings, the roller with its screw, and the bars of main leg and front link."""
     holes, catalogue = HoleSizes.of(workshop, layout.hub_bearing), workshop.catalogue
     lateral, cam = layout.lateral, layout.drive.cam
     low, high = lateral.leg
@@ -160,11 +145,6 @@ def hub_and_roller(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     yield placed_screw("roller_screw", MAIN_LEG, end, lateral.roller_screw, 1.0, screw, catalogue)
     slabs = [(-nut.height_mm, 0.0, hexagon_outline(nut.across_flats_mm, screw.diameter_mm))]
     yield bought("roller_nut", "lock nut M3 DIN 985", MAIN_LEG, nut.mass_g, slabs, (end[0], low, end[1]))
-
-
-def bars(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the bars of main leg and front link, with the length to cut."""
-    holes = HoleSizes.of(workshop, layout.hub_bearing)
     places = {MAIN_LEG: leg_bar_place(layout, holes), FRONT_LINK: front_bar_place(layout, holes)}
     for body, place in places.items():
         if place is None:

@@ -65,7 +65,9 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     around = socket_outline(layout) - taps
     seat, rim = lateral.motor[0], lateral.motor[1] - MOTOR_CLAMP_MM
     slabs = [(y0 + floor, y1, whole - union([through, window, bores])), (y0, y0 + floor, whole - (through + window))]
-    bosses = [_boss(layout, holes, y1, y1 + layout.boss_mm), _spring_boss(layout, holes, y1, cavity + taps)]
+    around_pin = ring(layout.spring_boss_outer_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
+    pin_boss = (y1, y1 + layout.spring_boss_mm, around_pin - (cavity + taps))
+    bosses = [_boss(layout, holes, y1, y1 + layout.boss_mm), pin_boss]
     levels = sorted({y1, seat, rim, *(top for _, top, _ in bosses)})
     for low, high in itertools.pairwise(levels):
         socket = around - (window if high <= seat else cavity)
@@ -80,7 +82,7 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
 def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     """Return the holes that pass a plate: standoff screws, tray and stop slots, the leg's pin, people and wires."""
     play = 2.0 * holes.fits.sliding_mm
-    cut = [hole(holes.m3_clearance_mm, place) for place in layout.standoffs_mm]
+    cut = [hole(holes.fits.m3_clearance_mm, place) for place in layout.standoffs_mm]
     size = (TAB_MM + play, TRAY_MM + play)
     cut += [rectangle(size, slot) for level in tray_slots(layout, side) for slot in level]
     cut += fitting_openings(layout.fittings, holes, side)
@@ -93,12 +95,6 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
 def _boss(layout: Layout, holes: HoleSizes, y0: float, y1: float) -> tuple[float, float, Region]:
     """Return the longer seat of the leg's axle, inside."""
     return y0, y1, ring(layout.spring_bore_room_mm, holes.running(layout.axle_mm), layout.hub_mm)
-
-
-def _spring_boss(layout: Layout, holes: HoleSizes, y0: float, socket: Region) -> tuple[float, float, Region]:
-    """Return the right plate's boss in which the springs' pin stands, inside, beside a socket."""
-    region = ring(layout.spring_boss_outer_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
-    return y0, y0 + layout.spring_boss_mm, region - socket
 
 
 def _drawing(

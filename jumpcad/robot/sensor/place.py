@@ -21,6 +21,9 @@ from jumpcad.transforms import Array
 
 GEAR_PLAY_MM = 0.1
 """Left of the cam gear's hub; judgement: the least that turns freely, since the land's height counts."""
+SLACK_MM = (2.0 * GAP_MM / 2.0 + GEAR_PLAY_MM) / 2.0 - GEAR_PLAY_MM
+"""How far the land is, in the middle of its play, to the right of where it is drawn: the plunger pushes the gear to the
+right as far as it goes; cam spacer, cam and gear each have half a gap."""
 FREE_MM = 0.1
 """Between the free plunger and the groove at the worst; judgement."""
 TRACK_WALL_MM = 1.6
@@ -63,17 +66,30 @@ class SensorNeeds:
     reserve_rad: float
     layer_mm: float
 
+    @property
+    def case_mm(self) -> tuple[float, float]:
+        """Length and width of the switch's case."""
+        return self.part.length_mm or 0.0, self.part.width_mm or 0.0
+
+    @property
+    def ear_mm(self) -> float:
+        """From the plunger to the mount's screws, along the long side."""
+        return self.case_mm[0] / 2.0 + MOUNT_PLAY_MM + MOUNT_WALL_MM + HEAD_RADIUS_MM
+
+    @property
+    def half_mm(self) -> tuple[float, float]:
+        """Half of the mount's length and width."""
+        return self.ear_mm + EAR_RADIUS_MM, self.case_mm[1] / 2.0 + MOUNT_PLAY_MM + MOUNT_WALL_MM
+
 
 @dataclass(frozen=True)
 class SensorPlace:
     """Where the switch is, and the track that it feels.
 
-    - `needs`: What it was placed for.
     - `place_mm`: The plunger's axis (2,) in the body frame's x-z plane.
     - `turn_rad`: Turn of the switch's long side in x-z, counter-clockwise from x.
     - `direction_rad`: Direction of the plunger from the cam's axis, counter-clockwise from x.
     - `radius_mm`: Of the plunger from the cam's axis.
-    - `half_width_mm`: Half of the groove's width.
     - `depth_mm`: Of the groove below the land.
     - `base_mm`: From the plate's outer face to the switch's base, outwards.
     - `scatter_rad`: How far the angle at which the switch operates may be from the drawn one, either way.
@@ -92,21 +108,6 @@ class SensorPlace:
     scatter_rad: float
     ready_rad: float
     open_rad: float
-
-    @property
-    def case_mm(self) -> tuple[float, float]:
-        """Length and width of the switch's case."""
-        return _case_mm(self.needs.part)
-
-    @property
-    def ear_mm(self) -> float:
-        """From the plunger to the mount's screws, along the long side."""
-        return _ear_mm(self.needs.part)
-
-    @property
-    def half_mm(self) -> tuple[float, float]:
-        """Half of the mount's length and width."""
-        return _half_mm(self.needs.part)
 
     @property
     def press_mm(self) -> float:
@@ -149,7 +150,7 @@ def sensor_place(
     - `axles`: Places of axles and pins that the plate holds, by name; the switch keeps away from their seats.
     - `motor`: The motor's shaft, which may end in the plate.
     """
-    travel, half = needs.travel, _half_mm(needs.part)
+    travel, half = needs.travel, needs.half_mm
     low, high, width = _track_mm(drive, needs)
     depth = needs.layer_mm * math.ceil(
         (travel.free_mm + FREE_MM + needs.axial_mm - middle_mm(travel)) / needs.layer_mm - 1e-9
@@ -188,7 +189,7 @@ def sensor_place(
         return SensorPlace(
             needs=needs, place_mm=places[best], turn_rad=direction + math.pi / 2.0, direction_rad=direction,
             radius_mm=radius, half_width_mm=width / 2.0, depth_mm=depth,
-            base_mm=middle_mm(travel) - reach - _slack_mm(), scatter_rad=scatter,
+            base_mm=middle_mm(travel) - reach - SLACK_MM, scatter_rad=scatter,
             ready_rad=scatter + needs.stop_rad + needs.reserve_rad, open_rad=scatter + needs.reserve_rad,
         )  # fmt: skip
     assert refusal is not None
@@ -198,16 +199,8 @@ def sensor_place(
 def sensor_obstacle(sensor: SensorPlace, lateral: Lateral) -> Obstacle:
     """Return the switch with its mount as an obstacle for what is placed after it."""
     y = (lateral.gears[0][1], lateral.left_plate[1] + sensor.base_mm + MOUNT_WALL_MM + TERMINALS_MM)
-    half = np.array(sensor.half_mm) + CLEAR_MM
+    half = np.array(sensor.needs.half_mm) + CLEAR_MM
     return box_obstacle("sensor", sensor.place_mm, half, sensor.turn_rad, y)
-
-
-def _slack_mm() -> float:
-    """Return how far the land is, in the middle of its play, to the right of where it is drawn.
-
-    The plunger pushes the gear to the right as far as it goes: cam spacer, cam and gear each have half a gap.
-    """
-    return (2.0 * GAP_MM / 2.0 + GEAR_PLAY_MM) / 2.0 - GEAR_PLAY_MM
 
 
 def _track_mm(drive: Drive, needs: SensorNeeds) -> tuple[float, float, float]:
@@ -224,15 +217,3 @@ def _track_mm(drive: Drive, needs: SensorNeeds) -> tuple[float, float, float]:
             "sensor_track", outer - inner - width,
         )  # fmt: skip
     return inner + width / 2.0, outer - width / 2.0, width
-
-
-def _case_mm(part: Component) -> tuple[float, float]:
-    return part.length_mm or 0.0, part.width_mm or 0.0
-
-
-def _ear_mm(part: Component) -> float:
-    return _case_mm(part)[0] / 2.0 + MOUNT_PLAY_MM + MOUNT_WALL_MM + HEAD_RADIUS_MM
-
-
-def _half_mm(part: Component) -> tuple[float, float]:
-    return _ear_mm(part) + EAR_RADIUS_MM, _case_mm(part)[1] / 2.0 + MOUNT_PLAY_MM + MOUNT_WALL_MM

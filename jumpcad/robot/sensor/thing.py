@@ -5,7 +5,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.catalogue import Component, Travel
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, lower
 from jumpcad.mechanism.model import BODY
@@ -31,8 +30,8 @@ THREAD_MIN_MM = 1.6
 """Least length of a mount's screw in the plate: four threads of M2."""
 EDGE_MM = 2.0
 """Material of the plate around the switch's opening and its screws; judgement."""
-SCREWS_MM = (4.0, 5.0, 6.0)
-"""Lengths of M2 screws (ISO 14580)."""
+SCREW_MM = next(length for length in (4.0, 5.0, 6.0) if length >= EAR_MM + THREAD_MIN_MM)
+"""Of the mount's screws: the shortest M2 (ISO 14580) that holds in the plate."""
 
 
 def sensor_mount(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
@@ -42,14 +41,14 @@ def sensor_mount(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
     if sensor is None:
         return
     _require_base(layout, holes)
-    length, width = sensor.case_mm
+    length, width = sensor.needs.case_mm
     around = 2.0 * (MOUNT_PLAY_MM + MOUNT_WALL_MM)
     cavity = rectangle((length + 2.0 * MOUNT_PLAY_MM, width + 2.0 * MOUNT_PLAY_MM))
     body = rectangle((length + around, width + around), corner_radius_mm=0.8)
     window = rectangle((length - 2.0 * LEDGE_MM, width - 2.0 * LEDGE_MM))
-    ears = union(disc(2.0 * EAR_RADIUS_MM, (side * sensor.ear_mm, 0.0)) for side in (-1.0, 1.0))
-    neck = rectangle((2.0 * sensor.ear_mm, 2.0 * EAR_RADIUS_MM))
-    screws = union(hole(holes.fits.m2_clearance_mm, (side * sensor.ear_mm, 0.0)) for side in (-1.0, 1.0))
+    ears = union(disc(2.0 * EAR_RADIUS_MM, (side * sensor.needs.ear_mm, 0.0)) for side in (-1.0, 1.0))
+    neck = rectangle((2.0 * sensor.needs.ear_mm, 2.0 * EAR_RADIUS_MM))
+    screws = union(hole(holes.fits.m2_clearance_mm, (side * sensor.needs.ear_mm, 0.0)) for side in (-1.0, 1.0))
     full, base, top = union([body, ears, neck]) - screws, sensor.base_mm, sensor.base_mm + CEILING_MM
     ear = min(ear_height_mm(layout), top)
     slabs = [(0.0, min(ear, base), full - cavity), (base, top, body - window)]
@@ -61,34 +60,27 @@ def sensor_mount(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
 def ear_height_mm(layout: Layout) -> float:
     """Return the height of the ears with which the shortest screw that holds ends inside the plate."""
     plate = layout.lateral.left_plate[1] - layout.lateral.left_plate[0]
-    return max(EAR_MM, screw_mm() - plate + 0.2)
+    return max(EAR_MM, SCREW_MM - plate + 0.2)
 
 
 def screw_places(sensor: SensorPlace) -> list[Array]:
     """Return the mount's screws (2,) in the plate."""
     along = np.array([math.cos(sensor.turn_rad), math.sin(sensor.turn_rad)])
-    return [np.round(sensor.place_mm + side * sensor.ear_mm * along, 6) for side in (-1.0, 1.0)]
+    return [np.round(sensor.place_mm + side * sensor.needs.ear_mm * along, 6) for side in (-1.0, 1.0)]
 
 
 def plate_opening(sensor: SensorPlace, holes: HoleSizes) -> Region:
     """Return what the left plate lacks for the sensor: an opening for its case, and the mount's screws."""
-    length, width = sensor.case_mm
+    length, width = sensor.needs.case_mm
     case = rectangle((length + 2.0 * OPENING_MM, width + 2.0 * OPENING_MM), corner_radius_mm=0.8)
     return union([_turned(sensor, case), *(hole(holes.fits.m2_tap_mm, place) for place in screw_places(sensor))])
 
 
 def plate_pad(sensor: SensorPlace, more_mm: float = 0.0) -> Region:
     """Return where the left plate needs material for the sensor, grown by a margin."""
-    half_length_mm = sensor.half_mm[0] + more_mm
-    half_width_mm = sensor.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm  # farther than the mount
+    half_length_mm = sensor.needs.half_mm[0] + more_mm
+    half_width_mm = sensor.needs.case_mm[1] / 2.0 + OPENING_MM + EDGE_MM + more_mm  # farther than the mount
     return _turned(sensor, rectangle((2.0 * half_length_mm, 2.0 * half_width_mm), corner_radius_mm=1.0 + more_mm))
-
-
-def sensor_slabs(part: Component, travel: Travel) -> list[tuple[float, float, Region]]:
-    """Return the switch as slabs along y from its base inwards, its plunger drawn at the end of its travel."""
-    height = part.height_mm or 0.0
-    case = rectangle((part.length_mm or 0.0, part.width_mm or 0.0))
-    return [(-height, 0.0, case), (-travel.total_mm, -height, disc(travel.pin_mm))]
 
 
 def _require_base(layout: Layout, holes: HoleSizes) -> None:
@@ -103,11 +95,6 @@ def _require_base(layout: Layout, holes: HoleSizes) -> None:
             "sensor_mount", base - least,
             ways=(*lower("body.plate_mm"), "a stiffer material of the plates", *choose("a taller", "bought.sensor")),
         )  # fmt: skip
-
-
-def screw_mm() -> float:
-    """Return the length of the mount's screws: the shortest that holds in the plate."""
-    return next(length for length in SCREWS_MM if length >= EAR_MM + THREAD_MIN_MM)
 
 
 def _pose(sensor: SensorPlace, y_mm: float) -> Array:
@@ -128,11 +115,13 @@ def sensor(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     if felt is None:
         return
     part, at = felt.needs.part, (felt.place_mm[0], outside + felt.base_mm, felt.place_mm[1])
-    slabs = sensor_slabs(part, felt.needs.travel)
+    height, case, travel = part.height_mm or 0.0, rectangle(felt.needs.case_mm), felt.needs.travel
+    # from its base inwards, its plunger drawn at the end of its travel
+    slabs = [(-height, 0.0, case), (-travel.total_mm, -height, disc(travel.pin_mm))]
     yield bought("sensor", part.description, BODY, part.mass_g, slabs, at, felt.turn_rad)
     head = outside + ear_height_mm(layout)
     for number, place in enumerate(screw_places(felt), start=1):
-        shank = (head - screw_mm(), head)
+        shank = (head - SCREW_MM, head)
         yield placed_screw(f"sensor_screw_{number}", BODY, place, shank, 1.0, catalogue.screws["M2"], catalogue)
 
 

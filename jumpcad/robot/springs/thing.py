@@ -8,7 +8,7 @@ import numpy as np
 from jumpcad.catalogue import StockSpring
 from jumpcad.dimensions import BUSHING_PLAY_MM
 from jumpcad.drive import TorsionSpring
-from jumpcad.drive.spring_arms import FULL_TURN_RAD
+from jumpcad.drive.spring import FULL_TURN_RAD
 from jumpcad.mechanism.model import BODY, MAIN_LEG
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right

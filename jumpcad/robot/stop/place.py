@@ -49,7 +49,6 @@ class StopPlace:
     - `radius_mm`, `heel_mm`: From the hub to the pad's middle, along the leg; from the leg's middle line to its heel.
     - `face_mm`: Middle (2,) of the pad's free face.
     - `depth_mm`: Of the bar, in the direction of the impact.
-    - `pad`: The pad that is glued on.
     - `room_mm`: How much farther than needed the freest place for it is from everything else, at most `KNOWN_MM`.
     """
 

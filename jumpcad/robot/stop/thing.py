@@ -22,11 +22,11 @@ from jumpcad.robot.layout import Layout
 from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.stop.place import EAR_MM, GIVE_ROOM_RAD, TAB_MM
-from jumpcad.robot.stop.strength import BLOW_FACTOR, stop_blow
 from jumpcad.robot.thing import Check, Thing
 from jumpcad.solids.outline import Region, hull, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.strength.axles import AxleBeam
+from jumpcad.strength.loads import BLOW_FACTOR, stop_blow
 from jumpcad.strength.stress import CREEP_MPA, Beam
 from jumpcad.transforms import Array
 from jumpcad.workshop import Workshop
@@ -49,12 +49,8 @@ def stop_bar(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
     low, high = lateral.inside
     outer_low, outer_high = lateral.outside
     pad = layout.sections.thickness_mm + 2.0 * SEAT_PLAY_MM
-    body = hull(
-        [
-            _box(low, high, -END_SHARE * stop.depth_mm, 0.0),
-            _box(-pad / 2.0 - STOP_SEAT_MM, pad / 2.0 + STOP_SEAT_MM, -stop.depth_mm, 0.0),
-        ]
-    )
+    ends, middle = _box(low, high, -END_SHARE * stop.depth_mm, 0.0), pad / 2.0 + STOP_SEAT_MM
+    body = hull([ends, _box(-middle, middle, -stop.depth_mm, 0.0)])
     tabs = _box(outer_low, outer_high, -TAB_MM[1], 0.0)
     seat = _box(-pad / 2.0, pad / 2.0, -STOP_SEAT_MM - GLUE_MM, 1.0)
     shape = Stack.of([(0.0, TAB_MM[0], union([body, tabs]) - seat), (TAB_MM[0], STOP_PAD_MM, body - seat)])

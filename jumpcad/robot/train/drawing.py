@@ -71,7 +71,8 @@ def gears(layout: Layout, workshop: Workshop) -> list[Drawing]:
     stages, motor = layout.drive.train.stages, layout.drive.train.motor
     cam_y, motor_y = layout.lateral.gears[0], layout.lateral.gears[-1]
     turns = gear_turns(layout)
-    shape = (stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, _hub_mm(layout))
+    hub = GAP_MM - GEAR_PLAY_MM if layout.idler_mm is None else 0.0  # none where a spacer lies between gear and plate
+    shape = (stages[-1].wheel, layout.drive.dog, layout.axle_mm, holes, hub)
     cam_gear = _cam_gear(*shape, None) if layout.sensor is None else _grooved(*shape, _track(layout, layout.sensor))
     pinion = _motor_pinion(stages[0].pinion, motor.shaft_mm, motor.shaft_flat_mm, holes)
     made = [
@@ -127,20 +128,12 @@ def _cam_gear(
     outer, inner = dog.outer_mm + play, dog_inside_mm(holes.fits, axle_mm) - play
     around = hole(outer) - disc(inner)
     bore, width = hole(holes.running(axle_mm)), gear.face_width_mm
-    solid = None if track_mm is None else _annulus(track_mm[0] - TRACK_WALL_MM, track_mm[1] + TRACK_WALL_MM)
+    inside, outside = track_mm or (0.0, 0.0)
+    solid = ring(2.0 * (outside + TRACK_WALL_MM), 2.0 * (inside - TRACK_WALL_MM)) if track_mm else None
     region = _webbed(gear, bore, outer / 2.0, solid) - (around ^ sectors(dog.pockets_rad, outer))
     slabs = [(0.0, width, region.mirror((1.0, 0.0)))]
     slabs += [(width, width + hub_mm, disc(inner) - bore)] if hub_mm > 0.0 else []
     return holes.chamfered(Stack.of(slabs))
-
-
-def _hub_mm(layout: Layout) -> float:
-    """Return by how much the cam gear's hub stands out towards the plate; not where a spacer lies between."""
-    return GAP_MM - GEAR_PLAY_MM if layout.idler_mm is None else 0.0
-
-
-def _annulus(inner_mm: float, outer_mm: float) -> Region:
-    return ring(2.0 * outer_mm, 2.0 * inner_mm)
 
 
 @dataclass(frozen=True)
@@ -165,7 +158,8 @@ def _track(layout: Layout, sensor: SensorPlace) -> Track:
 @lru_cache(maxsize=8)
 def _grooved(gear: Gear, dog: Dog, axle_mm: float, holes: HoleSizes, hub_mm: float, track: Track) -> Stack:
     """Return the cam gear with the sensor's track: often that of the round of growth before."""
-    groove = _annulus(*track.radii_mm)
+    inside, outside = track.radii_mm
+    groove = ring(2.0 * outside, 2.0 * inside)
 
     def beside_land(begin_rad: float, end_rad: float) -> Region:
         return groove - (groove ^ sectors([(begin_rad, end_rad)], 2.0 * track.radii_mm[1])).mirror((1.0, 0.0))

@@ -10,9 +10,18 @@ from jumpcad.dimensions import CAP_EAR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Remedy, higher
+from jumpcad.findings import Remedy
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.room import Obstacle, best_place, box_obstacle, clearance, disc, ring_candidates, shortfall
+from jumpcad.robot.space.room import (
+    LONGER_BODY,
+    Obstacle,
+    best_place,
+    box_obstacle,
+    clearance,
+    disc,
+    ring_candidates,
+    shortfall,
+)
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
@@ -94,10 +103,8 @@ def train_places(
 
 
 def _smaller(motor: Motor) -> Remedy:
-    return (
-        *higher("d_coef", "carrying_link_mm", note="a longer body"),
-        f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)",
-    )
+    smaller = f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
+    return (*LONGER_BODY, smaller)
 
 
 def _idler_places(obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array) -> Array:

@@ -1,7 +1,7 @@
 """Kits that fit, and what is said of those that do not: every finding with which range misses which."""
 
 import math
-from collections.abc import Callable
+import tempfile
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -12,9 +12,11 @@ import shapely
 from support.built import built
 from support.each import each
 from support.said import well_told
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.bundle.drawings.wiring import wires
+from jumpcad.bundle.firmware import numbers
 from jumpcad.design import load_design
 from jumpcad.electronics.supply import Link, chosen_parts
 from jumpcad.errors import CannotBuildError
@@ -23,35 +25,45 @@ from jumpcad.robot.electronics import limits as leads
 from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.electronics.limits import _voltage, electronics_findings, holding_findings, lead_findings, links
 from jumpcad.robot.load_case import LoadCase
+from jumpcad.robot.robot import Robot
 from jumpcad.robot.space.room import disc
-from jumpcad.workshop import Workshop, load_workshop
+from jumpcad.workshop import load_workshop
 
 KITS = ("light-1s", "strong-2s")
-Write = Callable[[str], Workshop]
-
-
-@pytest.fixture
-def workshop(tmp_path: Path) -> Write:
-    """Return a function that reads a workshop from text."""
-
-    def write(text: str) -> Workshop:
-        path = tmp_path / "my.toml"
-        path.write_text(text, encoding="utf-8")
-        return load_workshop(path)
-
-    return write
+CELL = """[bought]
+battery = "mine"
+[batteries.mine]
+description = "a cell"
+source = "x"
+length_mm = 35
+width_mm = 20
+height_mm = 6
+mass_g = 8
+voltage_v = 3.7
+"""
+"""Of no stated current."""
 
 
 @lru_cache
-def found(shop_toml: str) -> dict[str, Finding]:
-    """Return the findings of Kenan 2.0 in a workshop, by name."""
-    import tempfile
-
+def robot_in(shop_toml: str) -> Robot:
+    """Return Kenan 2.0 in a workshop."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "my.toml"
         path.write_text(shop_toml, encoding="utf-8")
-        robot = build(load_design("kenan-2.0"), load_workshop(path))
-    return {finding.name: finding for finding in electronics_findings(robot)}
+        return build(load_design("kenan-2.0"), load_workshop(path))
+
+
+def found(shop_toml: str) -> dict[str, Finding]:
+    """Return its findings, by name."""
+    return {finding.name: finding for finding in electronics_findings(robot_in(shop_toml))}
+
+
+def beside(monkeypatch: pytest.MonkeyPatch, x: float, y: float, z: float, radius_mm: float) -> Finding:
+    """Return what is found of the leads where a thin disc alone moves."""
+    thin = (y - 0.05, y + 0.05)
+    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", (x, z), radius_mm, thin)])
+    (finding,) = lead_findings(built("kenan-2.0"))
+    return finding
 
 
 @pytest.mark.parametrize("kit", KITS)
@@ -98,9 +110,7 @@ def test_a_switch_that_burns_under_a_blocked_motor_is_an_error() -> None:
 
 def test_a_battery_whose_current_nobody_states_is_named() -> None:
     """Unknown is neither met nor violated."""
-    cell = 'description = "a cell"\nlength_mm = 35\nwidth_mm = 20\nheight_mm = 6\nmass_g = 8\nvoltage_v = 3.7\n'
-    text = f'[bought]\nbattery = "mine"\n[batteries.mine]\n{cell}capacity_mah = 300\nsource = "x"'
-    finding = found(text)["motor_current_battery"]
+    finding = found(f"{CELL}capacity_mah = 300")["motor_current_battery"]
     assert finding.severity == "warning"
     assert "0.44 A" in finding.message
     assert "not known" in finding.message
@@ -120,29 +130,14 @@ def test_charging_is_measured_against_the_battery() -> None:
 
 
 def test_a_battery_without_a_rating_is_charged_with_1_c() -> None:
-    text = """[bought]
-battery = "plain"
-[batteries.plain]
-description = "cell"
-source = "x"
-length_mm = 35.0
-width_mm = 20.0
-height_mm = 6.0
-mass_g = 8.0
-voltage_v = 3.7
-capacity_mah = 350.0
-"""
-    finding = found(text)["charging_current"]
+    finding = found(f"{CELL}capacity_mah = 350")["charging_current"]
     assert (finding.severity, finding.limit) == ("error", 350.0)
     assert "1 C" in finding.message
 
 
-def test_a_pin_that_the_board_lacks_is_refused_in_one_line(workshop: Write) -> None:
-    from jumpcad.bundle.firmware import numbers
-
-    robot = build(load_design("kenan-2.0"), workshop('[bought.pins]\nmotor = "D77"'))
+def test_a_pin_that_the_board_lacks_is_refused_in_one_line() -> None:
     with pytest.raises(CannotBuildError, match=r"^xiao-esp32c3 has no GPIO at D77: name another pin in"):
-        numbers(robot)
+        numbers(robot_in('[bought.pins]\nmotor = "D77"'))
 
 
 def like(kind: str, of: str, figures: str) -> str:
@@ -232,15 +227,14 @@ def test_the_strap_holds_the_battery_at_twice_the_landing() -> None:
     assert finding.severity == "info"
     assert f"a landing of {LoadCase(robot).landing_n / robot.mass_kg:.0f} m/s² the battery " in finding.message
     assert f"the battery pulls with {pull:.1f} N on its strap, which holds {25.0 / 3.0:.1f} N" in finding.message
-    weak = robot.workshop.seats.model_copy(update={"strap_n": 1.0})
-    loose = replace(robot, workshop=robot.workshop.model_copy(update={"seats": weak}))
+    loose = replace(robot, workshop=workshop_with(robot.workshop, seats={"strap_n": 1.0}))
     assert next(iter(holding_findings(loose))).severity == "error"
 
 
 def test_of_what_is_tied_the_heaviest_is_named_where_ties_hold_less_than_straps() -> None:
     robot = built("best-bo")
-    seats = robot.workshop.seats.model_copy(update={"tie_n": 0.3, "strap_n": 100.0})
-    (finding,) = holding_findings(replace(robot, workshop=robot.workshop.model_copy(update={"seats": seats})))
+    shop = workshop_with(robot.workshop, seats={"tie_n": 0.3, "strap_n": 100.0})
+    (finding,) = holding_findings(replace(robot, workshop=shop))
     tied = [*robot.layout.electronics.boards, "plug", "capacitor"]
     heaviest = max((item for item in robot.hardware if item.name in tied), key=lambda item: item.mass_kg)
     pull = 2.0 * heaviest.mass_kg * LoadCase(robot).landing_n / robot.mass_kg
@@ -261,12 +255,9 @@ def test_what_moves_across_a_lead_or_close_beside_it_is_found(
     monkeypatch: pytest.MonkeyPatch, beside_mm: float, severity: str
 ) -> None:
     """A thin disc across the middle of the motor's leads outside the plate, to their left or right by up to 1.5 mm."""
-    robot = built("kenan-2.0")
-    start, end = way_in(robot.layout, "motor")[:2]
-    middle, y = (start + end)[[0, 2]] / 2.0, start[1] + beside_mm
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", middle, 2.0, (y - 0.1, y + 0.1))])
-    (finding,) = lead_findings(robot)
-    assert finding.severity == severity
+    start, end = way_in(built("kenan-2.0").layout, "motor")[:2]
+    x, _, z = (start + end) / 2.0
+    assert beside(monkeypatch, x, start[1] + beside_mm, z, 2.0).severity == severity
 
 
 @pytest.mark.parametrize(
@@ -276,11 +267,9 @@ def test_the_gap_is_from_a_leads_middle_to_what_moves(
     monkeypatch: pytest.MonkeyPatch, aside: tuple[float, float]
 ) -> None:
     """A disc of 2 mm across the leads outside the plate, its middle beside the middle of their way: touching or not."""
-    robot = built("kenan-2.0")
-    start, end = way_in(robot.layout, "motor")[:2]
-    place, y = (start + end)[[0, 2]] / 2.0 + aside, start[1]
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("fan", place, 2.0, (y - 0.1, y + 0.1))])
-    (finding,) = lead_findings(robot)
+    start, end = way_in(built("kenan-2.0").layout, "motor")[:2]
+    place = (start + end)[[0, 2]] / 2.0 + aside
+    finding = beside(monkeypatch, place[0], start[1], place[1], 2.0)
     line = shapely.LineString([start[[0, 2]], end[[0, 2]]])
     assert finding.value == pytest.approx(line.distance(shapely.Point(place)) - 2.0, abs=0.1)
 
@@ -289,13 +278,10 @@ def test_the_gap_is_from_a_leads_middle_to_what_moves(
 @pytest.mark.parametrize("stretch", [0, 1, 2])
 def test_what_moves_anywhere_along_a_lead_is_found(monkeypatch: pytest.MonkeyPatch, part: str, stretch: int) -> None:
     """A ball in the middle of each stretch: beside the plate, through its hole, and from there to the trays."""
-    robot = built("kenan-2.0")
-    layout, way = robot.layout, way_in(robot.layout, part)
+    layout, way = built("kenan-2.0").layout, way_in(built("kenan-2.0").layout, part)
     tray = layout.electronics.middle_mm(layout.tray_mm)
     way.append(np.array([tray[0], way[-1][1], tray[1]]))
-    x, y, z = (way[stretch] + way[stretch + 1]) / 2.0
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.1, y + 0.1))])
-    (finding,) = lead_findings(robot)
+    finding = beside(monkeypatch, *(way[stretch] + way[stretch + 1]) / 2.0, 0.1)
     assert (finding.severity, finding.message.split("'")[0]) == ("error", f"the {part}")
 
 
@@ -307,10 +293,7 @@ def test_inside_the_plates_a_lead_runs_beside_its_plate(
     """A ball half way to the trays is in its way where it is within 1.5 mm to the left or right of it."""
     layout, way = built("kenan-2.0").layout, way_in(built("kenan-2.0").layout, part)
     x, z = (way[-1][[0, 2]] + layout.electronics.middle_mm(layout.tray_mm)) / 2.0
-    y = way[-1][1] + beside_mm
-    monkeypatch.setattr(leads, "moving_obstacles", lambda layout: [disc("ball", (x, z), 0.1, (y - 0.05, y + 0.05))])
-    (finding,) = lead_findings(built("kenan-2.0"))
-    assert finding.severity == severity
+    assert beside(monkeypatch, x, way[-1][1] + beside_mm, z, 0.1).severity == severity
 
 
 def test_the_bill_has_the_wire_that_is_cut() -> None:

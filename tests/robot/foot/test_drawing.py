@@ -84,11 +84,8 @@ def test_the_ankles_pin_goes_in_past_the_toes(angle_deg: float) -> None:
     """Its head, or its clip, has 7 mm of room about the pin's axis from the boss's face outwards, past both toes."""
     design = load_design("best-bo").model_copy(update={"ground_link_angle_deg": angle_deg})
     layout = layout_of(design, load_workshop())
-    mesh, depth, face = (
-        foot_part.foot(layout, load_workshop()).mesh,
-        layout.sections.foot_depth_mm,
-        layout.ankle_face_mm,
-    )
+    mesh, depth = foot_part.foot(layout, load_workshop()).mesh, layout.sections.foot_depth_mm
+    face = layout.ankle_face_mm
     turns = np.radians(np.arange(0.0, 360.0, 30.0))
     rim = [[3.4 * np.cos(turn), 3.4 * np.sin(turn)] for turn in turns]
     for y in np.arange(face + 0.1, face + 12.0, 0.2):

@@ -7,8 +7,9 @@ import pytest
 from manifold3d import CrossSection
 from support.built import built
 from support.fits import with_fits_apart
+from support.workshops import workshop_with
 
-from jumpcad import build, load_design, load_workshop
+from jumpcad import build, load_design
 from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check
 from jumpcad.errors import CannotBuildError
@@ -18,14 +19,8 @@ from jumpcad.robot.leg.bar_limits import _socket
 from jumpcad.robot.leg.drawing import front_bar_place, leg_bar_place, main_leg
 from jumpcad.robot.load_case import LoadCase
 from jumpcad.robot.robot import Robot
-from jumpcad.workshop import Workshop
 
 BARS = load_catalogue().bars
-
-
-def workshop(leg: str) -> Workshop:
-    shop = load_workshop()
-    return Workshop(**(shop.model_dump() | {"bought": shop.bought.model_dump() | {"leg": leg}}))
 
 
 def robot(leg: str) -> Robot:
@@ -124,4 +119,4 @@ def test_sockets_begin_two_walls_beside_the_holes_of_pins() -> None:
 def test_a_leg_that_is_too_short_is_refused_with_the_length_that_misses() -> None:
     short = load_design("kenan-2.0").model_copy(update={"carrying_link_mm": 62.0})
     with pytest.raises(CannotBuildError, match=r"bought\.leg.* mm of the .* are free between the bar's sockets; 5 mm"):
-        build(short, workshop("carbon-tube-6x4"))
+        build(short, workshop_with(bought={"leg": "carbon-tube-6x4"}))

@@ -34,7 +34,7 @@ def test_the_motors_shaft_and_the_sensors_switch_pass_the_left_plate(name: str) 
     """A shaft of 3 mm with 0.3 mm around it, the switch's case with 0.4 mm; both reach through the whole plate."""
     layout = built(name).layout
     sensor, (low, high) = layout.sensor, layout.lateral.left_plate
-    half = np.array(sensor.case_mm) / 2.0 + 0.38
+    half = np.array(sensor.needs.case_mm) / 2.0 + 0.38
     case = shapely.affinity.rotate(shapely.box(*-half, *half), sensor.turn_rad, origin=(0.0, 0.0), use_radians=True)
     opened = shapely.affinity.translate(case.buffer(-0.8).buffer(0.78), *sensor.place_mm)
     shaft = shapely.Point(*layout.motor_mm).buffer(1.5 + 0.28, 32)

@@ -3,29 +3,22 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 from support.built import built, geared, placed
+from support.workshops import workshop_with
 
 from jumpcad.building import build
 from jumpcad.bundle.firmware import numbers
 from jumpcad.design import load_design
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sensor.limits import sensor_findings
-from jumpcad.workshop import load_workshop
-from jumpcad.workshop.workshop import Workshop
 
 OPERATES_MM, TOLERANCE_MM, FREE_MM, TOTAL_MM = 10.4, 0.2, 11.2, 9.1
 """Omron D2HW data sheet, page 6: positions of the pin plunger without posts, from the base."""
 MORE_PLAY_MM, LESS_PLAY_MM = 0.5, 0.1
 """How far the gear can go to the right and to the left: half a millimetre in two gaps of its axle, its hub's play."""
-
-
-def workshop(**tables: dict[str, Any]) -> Workshop:
-    shop = load_workshop()
-    return shop.model_copy(update={key: getattr(shop, key).model_copy(update=new) for key, new in tables.items()})
 
 
 def plunger_mm(robot: Robot, cam_rad: np.ndarray) -> np.ndarray:
@@ -96,6 +89,6 @@ def test_the_firmware_waits_for_the_same_angle() -> None:
      ({"sensor_along_mm": 3.0, "sensor_reserve_deg": 20.0}, "sensor_open")],
 )  # fmt: skip
 def test_scatter_beyond_the_switchs_travel_is_an_error(seats: dict[str, float], name: str) -> None:
-    robot = build(load_design("best-bo"), workshop(seats=seats))
+    robot = build(load_design("best-bo"), workshop_with(seats=seats))
     wrong = [finding.name for finding in sensor_findings(robot) if finding.severity == "error"]
     assert (name in wrong) if name else not wrong

@@ -18,7 +18,7 @@ def along(robot: Robot, shape: shapely.Geometry) -> shapely.Geometry:
 def test_the_case_lies_in_the_mount_up_to_its_ceiling(robot: Robot) -> None:
     """The cavity is as high as the base stands out of the plate; above it 1.2 mm with a window 0.9 mm inside."""
     sensor, outside = robot.layout.sensor, robot.layout.lateral.left_plate[1]
-    mesh, (length, width) = placed(robot, "sensor_mount"), robot.layout.sensor.case_mm
+    mesh, (length, width) = placed(robot, "sensor_mount"), robot.layout.sensor.needs.case_mm
     assert (mesh.bounds[0, 1], mesh.bounds[1, 1]) == pytest.approx((outside, outside + sensor.base_mm + 1.2))
     below = along(robot, region(cut(mesh, outside + 0.5 * sensor.base_mm)))
     above = along(robot, region(cut(mesh, outside + sensor.base_mm + 1.0)))
@@ -36,7 +36,7 @@ def test_the_case_lies_in_the_mount_up_to_its_ceiling(robot: Robot) -> None:
 
 def test_the_plate_leaves_the_case_a_gap_and_has_material_around_it(robot: Robot) -> None:
     sensor, lateral = robot.layout.sensor, robot.layout.lateral
-    length, width = sensor.case_mm
+    length, width = sensor.needs.case_mm
     section = along(robot, region(cut(placed(robot, "body_plate_left"), sum(lateral.left_plate) / 2.0)))
     case = shapely.box(-length / 2.0, -width / 2.0, length / 2.0, width / 2.0)
     assert section.intersection(case).area == pytest.approx(0.0, abs=1e-6)

@@ -97,13 +97,9 @@ def test_the_gap_between_the_legs_is_shapelys(name: str) -> None:
     for wind in windings(robot):
         ankle, front = body_in_plane(robot, FOOT, wind)[:2, 2], body_in_plane(robot, FRONT_LINK, wind)[:2, 2]
         eyes = in_body(robot, FOOT, wind, np.array([design.l4_mm, 0.0]))
-        main_leg = shapely.union_all(
-            [
-                shapely.Polygon(in_body(robot, MAIN_LEG, wind, np.array(leg))),
-                shapely.Point(*robot.layout.hub_mm).buffer(root),
-                shapely.Point(*ankle).buffer(max(tip, eye)),
-            ]
-        )
+        beam = shapely.Polygon(in_body(robot, MAIN_LEG, wind, np.array(leg)))
+        ends = shapely.Point(*robot.layout.hub_mm).buffer(root), shapely.Point(*ankle).buffer(max(tip, eye))
+        main_leg = shapely.union_all([beam, *ends])
         link = shapely.LineString([front, eyes]).buffer(sections.front_mm / 2.0)
         link = shapely.union_all([link, shapely.Point(*front).buffer(eye), shapely.Point(*eyes).buffer(eye)])
         smallest = min(smallest, main_leg.distance(link))

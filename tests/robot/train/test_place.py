@@ -9,7 +9,7 @@ from support.built import built, geared
 
 from jumpcad.dimensions import CLEAR_MM
 from jumpcad.drive import TorsionSpring
-from jumpcad.drive.spring_arms import Arms
+from jumpcad.drive.spring import Arms
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot.space.room import EVERYWHERE, disc
 from jumpcad.robot.springs.place import NoPinRoomError, arm_line, spring_obstacles, spring_pin_place

@@ -8,6 +8,7 @@ from support.built import built, geared
 from support.each import each
 from support.said import well_told
 from support.strengths import changed
+from support.workshops import workshop_with
 
 from jumpcad.electronics.supply import chosen_parts, supply_of
 from jumpcad.findings import errors
@@ -30,12 +31,8 @@ def test_what_the_drive_violates_is_an_error(kenan: Robot, name: str) -> None:
     findings = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.train.findings)
     spring = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.spring.findings)
     cam = tuple(replace(found, margin=-1.0) if found.name == name else found for found in drive.cam.findings)
-    violated = replace(
-        drive,
-        spring=replace(drive.spring, findings=spring),
-        cam=replace(drive.cam, findings=cam),
-        train=replace(drive.train, findings=findings),
-    )
+    springs, turned = replace(drive.spring, findings=spring), replace(drive.cam, findings=cam)
+    violated = replace(drive, spring=springs, cam=turned, train=replace(drive.train, findings=findings))
     robot = replace(kenan, layout=replace(kenan.layout, drive=violated))
     assert [finding.name for finding in errors(drive_findings(robot))] == [name]
 
@@ -105,11 +102,11 @@ def test_weak_gears_do_not_bear_a_blocked_motor() -> None:
     held = changed(robot, "gears", strength_in_plane_mpa=1.6 * teeth, strength_interlayer_mpa=1.6 * dog)
     assert [found.severity for found in blocked_findings(held)] == ["info"] * 2
     # the firmware's PWM keeps the torque: with a lower limit there is less of it
-    gentle = robot.workshop.safety.model_copy(update={"motor_torque_max_nm": 0.05})
-    soft = replace(robot, workshop=robot.workshop.model_copy(update={"safety": gentle}))
+    soft, softest = (
+        replace(robot, workshop=workshop_with(robot.workshop, safety={"motor_torque_max_nm": most}))
+        for most in (0.05, 0.01)
+    )
     assert next(iter(blocked_findings(soft))).value < 0.4 * teeth
-    gentlest = robot.workshop.safety.model_copy(update={"motor_torque_max_nm": 0.01})
-    softest = replace(robot, workshop=robot.workshop.model_copy(update={"safety": gentlest}))
     supply, motor = supply_of(chosen_parts(robot.workshop)), robot.layout.drive.train.motor
     usual = robot.workshop.safety.motor_torque_max_nm
     stalls = [supply.driven(motor, supply.full_v, most).stall_torque_nm for most in (0.01, usual)]

@@ -14,7 +14,7 @@ from jumpcad.checks.interference import Position, pieces_of, pose_of
 from jumpcad.design import load_design
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.robot.foot.sideways import play_rad, rolls, sideways_findings, stance_deg
+from jumpcad.robot.foot.thing import play_rad, rolls, sideways_findings, stance_deg
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import Workshop
 
