@@ -90,8 +90,7 @@ def build(
 def render(
     subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
     output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures"),
+        Path | None, typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures")
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,

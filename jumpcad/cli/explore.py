@@ -45,8 +45,7 @@ PointsOption = Annotated[
     ),
 ]
 AroundOption = Annotated[
-    str | None,
-    typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
+    str | None, typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND)
 ]
 OverOption = Annotated[
     str | None,
@@ -108,11 +107,7 @@ def explore(
         total = sum(counts.values()) if view == "sweep" else math.prod(counts.get(name, points) for name in names)
         view_of = _swept if view == "sweep" else partial(_mapped, names=names)
         run = partial(view_of, centre=centre, points=points)
-    with (
-        options.pool() as pool,
-        StudyStore.write(options.study, identity) as store,
-        watching(total, as_json) as watch,
-    ):
+    with options.pool() as pool, StudyStore.write(options.study, identity) as store, watching(total, as_json) as watch:
         data, figures = run(Evaluator(request, store, pool, watch=watch))
     if plots is not None:
         from jumpcad.search.report.figures import save_figure

@@ -127,11 +127,7 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 
 
 def rank_candidates(
-    evaluator: Evaluator,
-    trials: Sequence[Trial],
-    seed: int,
-    evaluations: int,
-    run: int = 0,
+    evaluator: Evaluator, trials: Sequence[Trial], seed: int, evaluations: int, run: int = 0
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 

@@ -150,11 +150,7 @@ class Space:
     @classmethod
     @check_arguments
     def parse(
-        cls,
-        fix: Iterable[str] = (),
-        bound: Iterable[str] = (),
-        choose: Iterable[str] = (),
-        **others: Any,
+        cls, fix: Iterable[str] = (), bound: Iterable[str] = (), choose: Iterable[str] = (), **others: Any
     ) -> Self:
         """Return the usual space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
 

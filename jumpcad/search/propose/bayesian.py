@@ -166,9 +166,7 @@ def run_steps(
 
 
 def unproposed(
-    evaluator: Evaluator,
-    proposals: Sequence[Proposal],
-    may_hold: Callable[[Variant], bool] = lambda _variant: True,
+    evaluator: Evaluator, proposals: Sequence[Proposal], may_hold: Callable[[Variant], bool] = lambda _variant: True
 ) -> Callable[[Variant], bool]:
     """Return a function that tells whether a variant may be proposed together with these."""
     taken = {proposal.variant.key for proposal in proposals}

@@ -183,11 +183,7 @@ def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:
         for index in sorted(range(len(learned.names)), key=lambda index: -round(float(learned.mean[index]), 2))
     ]
     is_known = learned.r_squared >= LEAST_R_SQUARED  # nor is NaN
-    return {
-        "learned": learned,
-        "least": LEAST_R_SQUARED,
-        "rows": rows if is_known else [],
-    }
+    return {"learned": learned, "least": LEAST_R_SQUARED, "rows": rows if is_known else []}
 
 
 def rising(found: StudySummary) -> list[str] | None:

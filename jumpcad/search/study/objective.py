@@ -196,10 +196,7 @@ OBJECTIVES: dict[str, Objective] = {
             "range-per-joule", "range per joule of electricity", "m/J", lambda m: _range_m(m) / m["electrical_energy_j"]
         ),
         Objective(
-            "range-per-spring-joule",
-            "range per joule in springs",
-            "m/J",
-            lambda m: _range_m(m) / m["spring_energy_j"],
+            "range-per-spring-joule", "range per joule in springs", "m/J", lambda m: _range_m(m) / m["spring_energy_j"]
         ),
         Objective(
             "metres-per-charge",
