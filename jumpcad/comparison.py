@@ -78,7 +78,6 @@ class ComparedRobot:
 
     @property
     def violated(self) -> list[str]:
-        """The names of its violated limits."""
         return [one.name for one in self.findings if one.severity != "info"]
 
     @cached_property

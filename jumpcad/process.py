@@ -39,7 +39,6 @@ def cores() -> int:
 
 
 def one_by_one(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
-    """Return what a function returns for each argument."""
     return [function(one) for one in arguments]
 
 

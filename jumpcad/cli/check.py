@@ -7,8 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json, wrapped
-from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, name_of, note_template
+from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
+from jumpcad.cli.subjects import (
+    MaterialOption,
+    OwnDesignArgument,
+    PrinterOption,
+    WorkshopOption,
+    name_of,
+    note_template,
+)
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -82,12 +89,7 @@ def grown_in_words(grown: "Sequence[Grown]") -> str:
 
 
 def check(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")
-        ),
-    ],
+    design: OwnDesignArgument,
     workshop: WorkshopOption = None,
     printer: PrinterOption = None,
     material: MaterialOption = None,
@@ -198,27 +200,21 @@ def _unknown(name: str) -> "JumpcadError":
 
 def _print_explained(name: str, findings: "list[Finding]") -> None:
     """Print formula and source of a limit, and what was found in this robot."""
-    from rich.table import Table
-
     from jumpcad.checks import SYMBOLS, basis_of
 
     basis = basis_of(name)
     assert basis is not None
-    table = Table(box=None, pad_edge=False, show_header=False)
-    table.add_column(no_wrap=True)
-    table.add_column()
-    table.add_row("formula", basis.formula)
-    table.add_row("symbols", SYMBOLS)
-    table.add_row("source", basis.source)
+    told = table("name", "words", wraps="words", show_header=False)
+    for words in (("formula", basis.formula), ("symbols", SYMBOLS), ("source", basis.source)):
+        told.add_row(*words)
     for finding in findings:
         use = "" if finding.use is None else f"{100.0 * finding.use:.0f} % used, "
         state = f"{WORDS[finding.severity]}, {use}{margin_in_words(finding)}".removesuffix(", ")
-        table.add_row(finding.name, f"{state}: {finding.message}")
-        table.add_row("remedy", finding.remedy)
-    screen = console()
-    screen.print(table)
+        told.add_row(finding.name, f"{state}: {finding.message}")
+        told.add_row("remedy", finding.remedy)
+    console().print(told)
     if not findings:
-        screen.print(f"{name}: not a limit of this robot, or reported only where it fails")
+        console().print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
 def _print_findings(findings: "list[Finding]", every: bool) -> None:

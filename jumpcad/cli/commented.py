@@ -118,14 +118,8 @@ def _written(value: Any) -> str:
     """Return a value as TOML, on one line."""
     import tomli_w
 
-    return (
-        tomli_w.dumps({"x": value})
-        .removeprefix("x = ")
-        .strip()
-        .replace("[\n    ", "[")
-        .replace(",\n]", "]")
-        .replace(",\n    ", ", ")
-    )
+    text = tomli_w.dumps({"x": value}).removeprefix("x = ").strip()
+    return text.replace("[\n    ", "[").replace(",\n]", "]").replace(",\n    ", ", ")
 
 
 def _written_key(key: str) -> str:

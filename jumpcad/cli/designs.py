@@ -11,6 +11,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, shell_quoted, st
 from jumpcad.cli.subjects import (
     DesignArgument,
     MaterialOption,
+    OwnDesignArgument,
     PrinterOption,
     SeedOption,
     WorkshopOption,
@@ -93,12 +94,7 @@ def _new_workshop(
 
 
 def cage(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")
-        ),
-    ],
+    design: OwnDesignArgument,
     workshop: WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="The workshop file; printed without.")] = None,
     force: ForceFlag = False,

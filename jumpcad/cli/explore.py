@@ -35,15 +35,8 @@ SamplesOption = Annotated[
     int | None,
     typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
 ]
-PointsOption = Annotated[
-    int | None,
-    typer.Option(
-        help="Values of each parameter in a sweep or along an axis of the map.",
-        min=2,
-        max=1000,
-        show_default=str(POINTS),
-    ),
-]
+ALONG = "Values of each parameter in a sweep or along an axis of the map."
+PointsOption = Annotated[int | None, typer.Option(help=ALONG, min=2, max=1000, show_default=str(POINTS))]
 AroundOption = Annotated[
     str | None, typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND)
 ]
@@ -133,16 +126,12 @@ def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
     sweeps = sweep(evaluator, centre, points)
     data = {
         one.parameter: [
-            {
-                "value": one.names[int(value)] if one.names else value,
-                "score": trial.score,
-                "verdict": trial.evaluation.verdict,
-                "reasons": trial.evaluation.reasons,
-            }
+            {"value": one.names[int(value)] if one.names else value, "score": trial.score,
+             "verdict": trial.evaluation.verdict, "reasons": trial.evaluation.reasons}
             for value, trial in zip(one.values, one.trials, strict=True)
         ]
         for one in sweeps
-    }
+    }  # fmt: skip
     words = {"units": {one.parameter: unit_of_key(one.parameter) for one in sweeps},
              "score_unit": evaluator.objective.unit}  # fmt: skip
     return {"sweeps": data, **words}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
@@ -156,12 +145,8 @@ def _sampled(evaluator: "Evaluator", view: str, samples: int, seed: int) -> Foun
     if view == "importance":
         found = importance(evaluator, trials, seed)
         order = found.mean.argsort()[::-1]
-        data = {
-            "importance": {found.names[i]: found.mean[i] for i in order},
-            "deviation": {found.names[i]: found.deviation[i] for i in order},
-            "r_squared": found.r_squared,
-            "designs": found.designs,
-        }
+        means, deviations = ({found.names[i]: of[i] for i in order} for of in (found.mean, found.deviation))
+        data = {"importance": means, "deviation": deviations, "r_squared": found.r_squared, "designs": found.designs}
         if found.r_squared < LEAST_R_SQUARED:
             data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
         return data, {"importance": lambda: plots.importance(found)}
@@ -179,9 +164,6 @@ def _mapped(evaluator: "Evaluator", centre: "Design", names: list[str], points: 
 
     found = feasibility_map(evaluator, centre, names[0], names[1], points)
     reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
-    data = {
-        "x": {"name": found.x_name, "values": found.x_names or found.x},
-        "y": {"name": found.y_name, "values": found.y_names or found.y},
-        "verdicts": reasons,
-    }
-    return data, {"feasibility": lambda: plots.feasibility(found, centre)}
+    x = {"name": found.x_name, "values": found.x_names or found.x}
+    y = {"name": found.y_name, "values": found.y_names or found.y}
+    return {"x": x, "y": y, "verdicts": reasons}, {"feasibility": lambda: plots.feasibility(found, centre)}

@@ -38,8 +38,6 @@ EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, 
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
-
-
 NO_PICK = f"none for the robust pick, which needs {4 * LEAST_PICK} in all"
 
 

@@ -76,13 +76,11 @@ class Output:
         return Output(self._stream, coloured=True)
 
     def write(self, text: str) -> int:
-        """Write text."""
         with self._written():
             self._stream.write(without_controls(text, self._kept))
         return len(text)
 
     def flush(self) -> None:
-        """Write what is buffered."""
         with self._written():
             self._stream.flush()
 

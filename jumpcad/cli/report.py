@@ -52,7 +52,6 @@ def report(
 
 
 def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:
-    """Write the page of a study; return its path."""
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
     from jumpcad.search.report.page import write_study_page
     from jumpcad.search.study.store import StudyStore
@@ -68,7 +67,6 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
 
 
 def _robot_page(subject: str, output: Path | None, workshop: str | None, row: int | None, force: bool) -> Path:
-    """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.files.outputs import require_apart, require_target, write_atomically

@@ -93,7 +93,6 @@ class SearchOptions:
         return {"--workshop": self.workshop, "--settings": self.settings}
 
     def pool(self) -> "Pool":
-        """Return the pool that the options describe."""
         from jumpcad.search.study.pool import open_pool
 
         return open_pool(self.workers, self.dask, self.limit)
@@ -153,7 +152,6 @@ class OptimizeOptions(SearchOptions):
     ] = None
 
     def robot_model(self) -> "RobotModel":
-        """Return the model that the options describe, with what is required."""
         return super().robot_model().requiring(self.require or ())
 
     def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[Request]":
@@ -175,7 +173,6 @@ class OptimizeOptions(SearchOptions):
         ]  # fmt: skip
 
     def inputs(self) -> dict[str, Any]:
-        """Return the files that are read, by their options."""
         starts = {f"--start {one}": one for one in self.start or ()}
         return {"--from-study": self.from_study, "--around": self.around, **starts, **super().inputs()}
 
@@ -187,10 +184,8 @@ def with_options(command: Callable[..., None]) -> Callable[..., None]:
     parameters: list[inspect.Parameter] = []
     for parameter in inspect.signature(command).parameters.values():
         if parameter.name == "options":
-            parameters += [
-                inspect.Parameter(field.name, KEYWORD, annotation=hints[field.name], default=field.default)
-                for field in fields(record)
-            ]
+            parameters += [inspect.Parameter(one.name, KEYWORD, annotation=hints[one.name], default=one.default)
+                           for one in fields(record)]  # fmt: skip
         else:
             parameters.append(parameter.replace(kind=KEYWORD))
 

@@ -109,23 +109,18 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
     top = feasible_trials(proposed)
     numbers = trial_numbers(trials)
     return {
-        "study": str(file),
-        "identity": identity,
-        "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
-        "ended": store.recall(ENDED),
-        "evaluations": len(proposed),
-        "other_evaluations": len(trials) - len(proposed),
-        "refused": count_rejections(proposed),
-        "evaluation_time_s": sum(trial.duration_s for trial in trials),
+        "study": str(file), "identity": identity,
+        "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])), "ended": store.recall(ENDED),
+        "evaluations": len(proposed), "other_evaluations": len(trials) - len(proposed),
+        "refused": count_rejections(proposed), "evaluation_time_s": sum(trial.duration_s for trial in trials),
         "best": top[0].to_dict() if top else None,
         "top": [{"trial": numbers[trial.position], **trial.to_dict()} for trial in top[:best]],
         "quarantined": [trial.to_dict() for trial in trials if trial.evaluation.verdict == "quarantined"],
         "notes": store.notes(),
-    }
+    }  # fmt: skip
 
 
 def _done(designs: int, planned: int) -> str:
-    """Return how far a search is."""
     return f"{designs} of {counted(planned, 'design')}" if planned else counted(designs, "design")
 
 

@@ -60,7 +60,6 @@ class Record(TomlTable):
 
     @classmethod
     def from_toml(cls, path: Path) -> Self:
-        """Read a record from a TOML file."""
         data, text = read_toml(path)
         return cls.from_data(data, source=str(path), text=text)
 

@@ -54,12 +54,7 @@ LENGTH_MM = 0.2
 class RobotModel:
     """A picklable, pure function from design to evaluation: geometric checks, then what the class of a robot does.
 
-    Parameters
-    ----------
-    workshop, settings, engine
-        Where a printed robot is built, and how robots are simulated; the default ones if None.
-    requirements
-        What figures and limits must keep; those of the jump hold on slippery and on rough floors.
+    Workshop and settings are the default ones if None. Required figures of the jump hold on slippery and rough floors.
     """
 
     name: ClassVar[str]
@@ -118,7 +113,6 @@ class RobotModel:
         return replace(self, requirements=found)
 
     def requires(self, name: str) -> bool:
-        """Whether a figure is required."""
         return any(one.name == name for one in self.requirements)
 
     def required(self, found: Evaluation, on_floors: Iterable[Mapping[str, float]] = ()) -> Evaluation:
@@ -135,7 +129,7 @@ class RobotModel:
 
         if not any(one.name in JUMP_FIGURES for one in self.requirements):
             return []
-        return [_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
+        return [plain_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
 
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
@@ -201,26 +195,16 @@ class CapsuleModel(RobotModel):
         from jumpcad.simulation import simulate
 
         jump = simulate(capsule_robot(design), self.settings, self.engine)
-        return self.required(Evaluation(jump.verdict, _figures(jump), tuple(jump.findings)))
+        return self.required(Evaluation(jump.verdict, plain_figures(jump), tuple(jump.findings)))
 
 
 @dataclass(frozen=True, repr=False)
 class PrintedModel(RobotModel):
-    """A robot that is built, simulated and checked in a workshop.
+    """A robot that is built, simulated and checked in a workshop."""
 
-    Parameters
-    ----------
-    stand_in
-        Whether the evaluation has the figures from which other robots are estimated.
-    perturbation
-        What is made otherwise than designed, by the keys of `tolerances`.
-    scored
-        Figures of `COSTLY` that the objective needs.
-    """
-
-    stand_in: bool = False
-    scored: tuple[str, ...] = ()
-    perturbation: Mapping[str, Value] = field(default_factory=dict)
+    stand_in: bool = False  # the evaluation has the figures from which other robots are estimated
+    scored: tuple[str, ...] = ()  # figures of `COSTLY` that the objective needs
+    perturbation: Mapping[str, Value] = field(default_factory=dict)  # made otherwise than designed, by keys of `MADE`
     name = "printed"
     figure_names = tuple(FIGURES)
     default_objective = "body_lengths"
@@ -249,7 +233,7 @@ class PrintedModel(RobotModel):
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
+        figures = plain_figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
         asked = self.asked
         if RIGHTS_ITSELF in asked:
             figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
@@ -293,7 +277,6 @@ class PrintedModel(RobotModel):
 
     @property
     def limit_names(self) -> Sequence[str]:
-        """Names of the limits that every evaluation checks."""
         from jumpcad.checks import CHECKS
 
         return [name for check in CHECKS if check.cheap for name in check.basis]
@@ -329,7 +312,7 @@ class PrintedModel(RobotModel):
         if jump.verdict != "jump":
             return -math.inf
         size = quick_size_m(design)
-        figures = _figures(jump)
+        figures = plain_figures(jump)
         figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
         try:
             return objective.score(Evaluation("jump", figures)) or 0.0
@@ -351,7 +334,6 @@ class PrintedModel(RobotModel):
         return settings.model_copy(update={"dt_s": max(settings.dt_s, ESTIMATE_STEP_S), "push_off_steps": 0})
 
     def describe(self) -> dict[str, Any]:
-        """Return all that decides an evaluation, as plain data."""
         more = {"stand_in": self.stand_in, "scored": list(self.scored)}
         return super().describe() | {name: value for name, value in more.items() if value}
 
@@ -388,17 +370,13 @@ def robot_model(
         raise JumpcadError(f"{name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(name, MODELS)}")
     if name == "published":
         return PublishedModel()
-    how = (
-        settings.revalidated()
-        if isinstance(settings, Settings)
-        else load_settings("default" if settings is None else settings)
-    )
+    settings = load_settings("default") if settings is None else settings
+    how = settings.revalidated() if isinstance(settings, Settings) else load_settings(settings)
     if name == "capsule":
         return CapsuleModel(settings=how, engine=engine or default_engine())
     shop = workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
     return PrintedModel(workshop=shop, settings=how, engine=engine or default_engine())
 
 
-def _figures(jump: Any) -> dict[str, float]:
-    """Return the plain figures of a jump."""
+def plain_figures(jump: Any) -> dict[str, float]:
     return {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}

@@ -32,12 +32,7 @@ PATH_COLOUR, PATH_MM = (0.82, 0.29, 0.36), 1.0
 class StudioStage:
     """What a viser server shows; names of nodes are `/robot/BODY/PART`, `/ghost/BODY/PART` and `/path`.
 
-    Parameters
-    ----------
-    server
-        The viser server.
-    clicked
-        Called with the name of a part of the robot that is clicked, as in `jumpcad.scene.visuals`.
+    `clicked` is called with the name of a part of the robot, as in `jumpcad.scene.visuals`.
     """
 
     def __init__(self, server: Any, clicked: Callable[[str], None] = lambda _: None) -> None:

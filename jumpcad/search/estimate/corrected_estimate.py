@@ -51,13 +51,7 @@ class Bounds:
 
 
 class Screen:
-    """Leaves out candidates of one search whose estimates are too bad.
-
-    Parameters
-    ----------
-    space, model, objective
-        Of the search: a printed robot, whose workshop does not vary.
-    """
+    """Leaves out candidates of one search whose estimates are too bad; its workshop does not vary."""
 
     def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
         self._space, self._model = space, model

@@ -18,7 +18,7 @@ from jumpcad.process import Shared
 from jumpcad.robot.robot import Robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot
 from jumpcad.search.estimate.fitted_figures import MARK, FittedFigures
-from jumpcad.search.models import PrintedModel
+from jumpcad.search.models import PrintedModel, plain_figures
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, Objective
 from jumpcad.search.study.trial import Trial, best_trial
@@ -44,10 +44,7 @@ class Estimate:
 class Estimator:
     """Estimates variants of one search; all follows from the trials that it learned.
 
-    Parameters
-    ----------
-    space, model, objective
-        Of the search; the model is one of printed robots. Where the workshop varies, layouts alone are known.
+    Where the workshop varies, layouts alone are known.
     """
 
     def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
@@ -127,7 +124,7 @@ class Estimator:
         margins |= {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Estimate(None, margins)
-        found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
+        found = plain_figures(jump)
         size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
         found = {**figures, **found, "size_m": size, "body_lengths": found["touchdown_distance_m"] / size}
         found |= self._model.robust(robot, self._model.estimate_settings)

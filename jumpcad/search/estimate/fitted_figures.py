@@ -32,18 +32,10 @@ FEW, FEW_MORE = 80, 10.0
 class FittedFigures:
     """Coefficients of every figure that all robots have; of its logarithm where it is positive in all of them.
 
-    So masses stay positive. Weighted ridge regression about a point; see `of`.
-
-    Parameters
-    ----------
-    positive, others
-        By name, coefficients (features + layout figures,) of logarithms and of figures.
-    layouts
-        Coefficients (layout figures, features) of the layout's own figures.
-    scale
-        Of the space.
-    sizes
-        Typical margins of the limits that rejected robots: their figures are arcsinh(margin / size).
+    So masses stay positive. Weighted ridge regression about a point; see `of`. There are coefficients (features +
+    layout figures,) of logarithms of what is `positive` and of `others`, by name, and (layout figures, features) of the
+    layout's own figures. `sizes` are typical margins of the limits that rejected robots: their figures are
+    arcsinh(margin / size).
     """
 
     def __init__(

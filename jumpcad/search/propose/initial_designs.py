@@ -29,12 +29,9 @@ APART = 0.1
 
 
 def first_points(
-    space: Space,
-    count: int,
-    generator: np.random.Generator,
-    ranked: Sequence[Array] = (),
+    space: Space, count: int, generator: np.random.Generator, ranked: Sequence[Array] = (),
     admits: Callable[[Variant], bool] = lambda _variant: True,
-) -> Array:
+) -> Array:  # fmt: skip
     """Return at most `count` points (count, dimension) of the unit cube to start with, evenly spread ones first.
 
     Half of them are the first of the `ranked` points (dimension,) that are apart. What `admits` does not admit is

@@ -38,29 +38,16 @@ def one_hot(points: Array, categories: Sequence[int]) -> Array:
 class Surrogate:
     """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length scale per axis, plus noise.
 
-    Parameters
-    ----------
-    x, y
-        Points (n, d) and values (n,).
-    theta
-        Logarithms of the hyperparameters, (k + 2,): variance, a length scale for each axis of `one_hot`, noise.
-    fit
-        Whether to improve them by maximum likelihood, as without `theta` too.
-    categories
-        Number of names of each axis; 0 for an axis of numbers. Empty: all are numbers.
-    units
-        What counts as 0 and as 1 of the values; their mean and standard deviation if None.
+    Of points x (n, d) and values y (n,). `theta` are logarithms of the hyperparameters, (k + 2,): variance, a length
+    scale for each axis of `one_hot`, noise; they are improved by maximum likelihood if `fit`, or without any.
+    `categories` are the numbers of names of the axes, 0 for one of numbers; empty: all are numbers. `units` are what
+    counts as 0 and as 1 of the values; their mean and standard deviation if None.
     """
 
     def __init__(
-        self,
-        x: Array,
-        y: Array,
-        theta: Sequence[float] | None = None,
-        fit: bool = True,
-        categories: Sequence[int] = (),
-        units: tuple[float, float] | None = None,
-    ) -> None:
+        self, x: Array, y: Array, theta: Sequence[float] | None = None, fit: bool = True,
+        categories: Sequence[int] = (), units: tuple[float, float] | None = None,
+    ) -> None:  # fmt: skip
         self.categories = tuple(categories) or (0,) * x.shape[1]
         seen = one_hot(x, self.categories)
         spread = float(np.std(y))

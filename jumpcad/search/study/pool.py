@@ -49,40 +49,21 @@ class Outcome:
 
 
 class Pool:
-    """Runs evaluations on an executor, and repeats those of lost workers.
+    """Runs so many evaluations at a time on an executor, and repeats those of lost workers.
 
-    Parameters
-    ----------
-    open_executor
-        Makes the executor; called again after its processes were lost.
-    end_executor
-        Ends it without waiting for running evaluations.
-    workers
-        Number of evaluations at a time.
-    limit_s
-        Timeout per evaluation (s), after which its worker is ended; 0 for none.
-    notice
-        Called with one line about every failure.
-    lost
-        Called where nothing ends for `ANSWER_S`: says why nothing will any more, or nothing.
+    The executor is opened again after its processes were lost, and ended without waiting for running evaluations. After
+    a timeout (s) per evaluation its worker is ended; 0 for none. `notice` is called with one line about every failure,
+    `lost` where nothing ends for `ANSWER_S`: it says why nothing will any more, or nothing.
     """
 
     @check_arguments
     def __init__(
-        self,
-        open_executor: Callable[[], Executor],
-        end_executor: Callable[[Any], None],
-        workers: int,
-        limit_s: float = 0.0,
-        notice: Callable[[str], None] = lambda text: None,
-        lost: Callable[[], str] = str,
-    ) -> None:
-        self.workers = workers
-        self.notice = notice
-        self._open = open_executor
-        self._end = end_executor
-        self._limit_s = limit_s
-        self._lost = lost
+        self, open_executor: Callable[[], Executor], end_executor: Callable[[Any], None], workers: int,
+        limit_s: float = 0.0, notice: Callable[[str], None] = lambda text: None, lost: Callable[[], str] = str,
+    ) -> None:  # fmt: skip
+        self.workers, self.notice = workers, notice
+        self._open, self._end = open_executor, end_executor
+        self._limit_s, self._lost = limit_s, lost
         self._executor: Executor | None = None
 
     def __enter__(self) -> "Pool":
@@ -92,7 +73,6 @@ class Pool:
         self.close()
 
     def close(self) -> None:
-        """End the workers."""
         if self._executor is not None:
             self._end(self._executor)
             self._executor = None
@@ -305,7 +285,6 @@ class InProcess(Executor):
     """An executor that does its work in the calling process when it is submitted."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Return a future that is done."""
         future: Future[Any] = Future()
         try:
             future.set_result(fn(*args, **kwargs))

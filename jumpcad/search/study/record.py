@@ -29,7 +29,6 @@ COLUMNS = (*PLACE, "score", "record")
 
 
 def to_row(trial: Trial) -> tuple[Any, ...]:
-    """Return the columns of a trial."""
     record = json.dumps(_TRIAL.dump_python(trial), ensure_ascii=False, separators=(",", ":"))
     return *trial.position, trial.score, record
 

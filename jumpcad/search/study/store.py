@@ -107,7 +107,6 @@ class StudyStore:
         return store
 
     def close(self) -> None:
-        """Close the file."""
         self._closing.close()
 
     def __enter__(self) -> "StudyStore":

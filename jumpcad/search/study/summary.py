@@ -70,7 +70,6 @@ def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
 
 
 def keep_pick(store: StudyStore, run: int, candidates: list[Candidate], bounds: list[ActiveBound]) -> None:
-    """Keep what a pick found."""
     picks = store.recall(PICKS, [], _PICKS)
     picks[run] = replace(picks[run], candidates=candidates, bounds=bounds)
     store.remember(PICKS, picks, _PICKS)
@@ -110,23 +109,12 @@ def kept_righting(store: StudyStore, winner: Trial | None) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class StudySummary:
-    """What a study knows.
+    """What a study knows: the trials that the search proposed, in order, and the winner.
 
-    Parameters
-    ----------
-    space, objective
-        What was searched for, and where.
-    trials
-        All designs that the search proposed, in order.
-    winner
-        The most robust of the best designs, or the best where neighbours were not examined; None if no design jumps,
-        and of a search for one design whose scores are all alike.
-    candidates
-        The best designs with the scores of their neighbours, most robust first; none where the pick has not ended.
-    bounds
-        The bounds of the search on which the winner lies.
-    numbers
-        The numbers of the study's trials, by position.
+    That is the most robust of the best designs, or the best where neighbours were not examined; None if no design
+    jumps, and of a search for one design whose scores are all alike. `candidates` are the best designs with the scores
+    of their neighbours, most robust first, none where the pick has not ended; `bounds` those on which the winner lies;
+    `numbers` those of all trials, by position.
     """
 
     space: Space
@@ -144,7 +132,6 @@ class StudySummary:
 
     @property
     def scored(self) -> bool:
-        """Whether some design jumps."""
         return best_trial(self.trials) is not None
 
 

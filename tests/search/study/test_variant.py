@@ -10,16 +10,7 @@ from support.decimals import decimals
 from jumpcad.design import PARAMETERS, Design, load_design
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.capsule import capsule_robot
-from jumpcad.search.study.variant import (
-    FLOOR,
-    PARTS,
-    PREFIX,
-    SPRINGS,
-    Tolerances,
-    Variant,
-    perturbed,
-    tenth,
-)
+from jumpcad.search.study.variant import FLOOR, PARTS, PREFIX, SPRINGS, Tolerances, Variant, perturbed, tenth
 from jumpcad.settings import Settings, coefficients
 
 DESIGN = load_design("kenan-2.0")
