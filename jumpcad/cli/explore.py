@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
-from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_options
+from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, watching, with_options
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
-from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, with_options
+from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, watching, with_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.process import one_thread
-from jumpcad.search.estimate.estimate import Estimate, Estimator
-from jumpcad.search.estimate.fitted_figures import MARK, of_layout
+from jumpcad.search.estimate.estimate import MARK, Estimate, Estimator, of_layout
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
