@@ -12,7 +12,7 @@ from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, w
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
     from jumpcad.design import Design

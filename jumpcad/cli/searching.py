@@ -16,7 +16,7 @@ from jumpcad.cli.output import status
 from jumpcad.cli.subjects import SeedOption
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.search.phases import PAPER, SEARCH_PHASES, UNTIL_PERCENT
+from jumpcad.search.methods import PAPER, SEARCH_PHASES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel

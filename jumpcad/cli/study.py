@@ -64,7 +64,7 @@ def study(
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
-        from jumpcad.search.phases import METHODS
+        from jumpcad.search.methods import METHODS
 
         (summary,) = summaries
         method = summary["identity"]["method"]
@@ -76,7 +76,7 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.phases import SEARCH_PHASES
+    from jumpcad.search.methods import SEARCH_PHASES
     from jumpcad.search.study.database import is_written
     from jumpcad.search.study.objective import described_objective
     from jumpcad.search.study.store import StudyStore

@@ -345,17 +345,9 @@ def robot_model(
     settings: Settings | str | Path | None = None,
     engine: str | None = None,
 ) -> RobotModel:
-    """Return the model of a name; workshop and settings by name, as files, or loaded.
+    """Return the model of a name of `MODELS`; workshop and settings by name, as files, or loaded.
 
-    Parameters
-    ----------
-    name
-        One of `MODELS`.
-    workshop
-        Where `printed` is built, the default if None.
-    settings, engine
-        How `printed` and `capsule` are simulated: the default settings, and the first of PyBullet and MuJoCo that is
-        installed, if None.
+    If None, the default workshop and settings, and the first of PyBullet and MuJoCo that is installed.
     """
     if engine is not None:
         require_engine(engine)

@@ -98,12 +98,9 @@ class Space:
         fixed, bounds, choices
             By name of a parameter, or by a key of the workshop such as `body.plate_mm`: its value, its lower and upper
             limit, its allowed values. Each is in at most one of them. Bounds that are `SEARCH_BOUNDS` are as `study`.
-        around
-            A design that gives the values of what is not free and the middle of `within_percent`.
-        only
-            Names of the parameters that stay free; all others are fixed at `around`.
-        within_percent
-            Narrow every range of a design to this percentage of its width on either side of `around`.
+        around, only, within_percent
+            A design; names of the parameters that stay free, the others fixed at it; the percentage of its width to
+            which every range of a design is narrowed on either side of it.
         workshop
             The workshop whose values may be varied; None for a robot that is made in none.
         study

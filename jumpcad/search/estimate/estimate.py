@@ -19,7 +19,7 @@ from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.process import Shared
+from jumpcad.process import MapOnCores
 from jumpcad.robot.robot import Robot
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot
 from jumpcad.search.models import PrintedModel, plain_figures
@@ -30,7 +30,7 @@ from jumpcad.search.study.variant import Key, Variant
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
 
-MARK = "laid_coil_mm"
+BUILT_FIGURE = "laid_coil_mm"
 """A figure that only robots have that were built to be learned from."""
 FITTED = 300
 """Most robots that figures are fitted to: the nearest to the best."""
@@ -74,7 +74,7 @@ class FittedFigures:
 
     @classmethod
     def of(cls, space: Space, trials: Sequence[Trial], centre: Array) -> Self:
-        """Fit the figures of trials with a `MARK`, the nearest to a point (d,) of the unit cube."""
+        """Fit the figures of trials with a `BUILT_FIGURE`, the nearest to a point (d,) of the unit cube."""
         units = np.array([space.to_unit(trial.variant) for trial in trials])
         distance = (np.abs(units - centre) / space.scale).max(axis=1)
         order = np.sort(np.argsort(distance, kind="stable")[:FITTED])
@@ -167,7 +167,7 @@ class Estimator:
 
     def learn(self, trials: Sequence[Trial]) -> None:
         """Fit the figures of the robots that were built, if there are enough new ones among some trials."""
-        built = [] if self._space.varies_workshop else [one for one in trials if MARK in one.evaluation.metrics]
+        built = [] if self._space.varies_workshop else [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
         rows = learned_rows(len(built))
         if rows in (0, self._rows):
             return
@@ -178,7 +178,7 @@ class Estimator:
         self._figures, self._rows = FittedFigures.of(self._space, known, centre), rows
         self._estimates.clear()
 
-    def look_at(self, variants: Iterable[Variant], shared: Shared) -> None:
+    def look_at(self, variants: Iterable[Variant], shared: MapOnCores) -> None:
         """Lay out and estimate what was not yet, by a function that shares the work among cores."""
         asked = {one.key: one for one in variants}
         new = [one for key, one in asked.items() if key not in self._layouts]

@@ -24,8 +24,8 @@ from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.search.explore import LEAST_R_SQUARED, importance
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
+from jumpcad.search.methods import FRONTS, LEARNING_PHASES
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.report import plots
 from jumpcad.search.report.drawings import evenly, history, parallel, slices

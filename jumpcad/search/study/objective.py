@@ -90,9 +90,7 @@ class Evaluation:
 
     @property
     def bare(self) -> "Evaluation":
-        """The same with findings of name, severity, unit and six digits of margin only, without what is no number.
-
-        It is what studies keep.
+        """What studies keep: findings of name, severity, unit and six digits of margin only, without what is no number.
 
         Ninety findings with their texts are 30 kB; who wants to read them evaluates the design again.
         """

@@ -22,7 +22,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
-from jumpcad.process import A, T, cores, one_by_one, raise_if_seen
+from jumpcad.process import A, T, cores, in_turn, raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
@@ -117,7 +117,7 @@ class Pool:
         except Exception:  # an objective of the user's that holds what cannot be sent
             sent = b""
         if not sent:
-            return one_by_one(function, arguments)
+            return in_turn(function, arguments)
         others: list[Future[list[T]]] = []
         found: list[T] = []
         while len(others) < len(parts):
@@ -125,10 +125,10 @@ class Pool:
             if sum(not other.done() for other in others) < 2 * self.workers:
                 others.append(self._submit(share, sent, parts[len(others)]))
             else:
-                found = [*one_by_one(function, parts.pop()), *found]
+                found = [*in_turn(function, parts.pop()), *found]
         for part, other in zip(parts[::-1], others[::-1], strict=True):
             done = other.done() and not other.cancelled() and other.exception() is None
-            found = [*(other.result() if done else one_by_one(function, part)), *found]
+            found = [*(other.result() if done else in_turn(function, part)), *found]
         return found
 
     def _ended(self, running: Iterable[Future[bytes]]) -> Iterable[Future[bytes]]:

@@ -14,10 +14,10 @@ from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
-from jumpcad.search import phases
+from jumpcad.search import methods
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
+from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, STAGES, Method
 from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
-from jumpcad.search.phases import FRONTS, METHODS, NAMES, SEQUENCES, STAGES, Method
 from jumpcad.search.space import Space
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.objective import Objective, find_objective
@@ -42,13 +42,13 @@ class Request:
     space: Space
     model: RobotModel
     objective: str | Callable[..., Any] | Objective | None = None
-    method: str = phases.DEFAULT
-    evaluations: int = phases.EVALUATIONS
+    method: str = methods.DEFAULT
+    evaluations: int = methods.EVALUATIONS
     seed: int = 0
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
-    until_percent: float = phases.UNTIL_PERCENT
+    until_percent: float = methods.UNTIL_PERCENT
     hours: float = 0.0
     screen: bool = False
     against: str | None = None
@@ -57,7 +57,7 @@ class Request:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name, kind, known in ((self.preset, "presets", phases.PRESETS), (self.method, "methods", NAMES)):
+        for name, kind, known in ((self.preset, "presets", methods.PRESETS), (self.method, "methods", NAMES)):
             if name not in known:
                 hint = did_you_mean(name, known)
                 raise JumpcadError(f"{name!r} is not one of the {kind} {', '.join(known)}{hint}")
@@ -134,8 +134,8 @@ class Request:
 
         Of a front, all of them examine neighbours.
         """
-        share = min(self.evaluations // 4, phases.MOST_PICK)
-        return share if share >= phases.LEAST_PICK else 0
+        share = min(self.evaluations // 4, methods.MOST_PICK)
+        return share if share >= methods.LEAST_PICK else 0
 
     @property
     def first(self) -> tuple[Variant, ...]:
@@ -248,13 +248,13 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     from them as from evenly spread designs, and more of them are wasted. Only the last stage ends where little is
     gained: what came before would have led it elsewhere.
     """
-    first, methods = len(request.first), _methods(request.method)
+    first, parts = len(request.first), _methods(request.method)
     total = request.searched - first
-    shares = [min(total // 3, MOST_FIRST)] if len(methods) > 1 else []
+    shares = [min(total // 3, MOST_FIRST)] if len(parts) > 1 else []
     shares.append(total - sum(shares))
-    learns = len(methods) == 1 and methods[0].learns
+    learns = len(parts) == 1 and parts[0].learns
     initial = default_initial(request.space, total, prior, request.estimated) if learns else 0
-    stages = [Stage(request, method.name, share, initial) for method, share in zip(methods, shares, strict=True)]
-    least_gain = request.until_percent / 100.0 if methods[-1].ends else 0.0
-    begin = [Stage(request, phases.START, first)] if first else []
+    stages = [Stage(request, method.name, share, initial) for method, share in zip(parts, shares, strict=True)]
+    least_gain = request.until_percent / 100.0 if parts[-1].ends else 0.0
+    begin = [Stage(request, methods.START, first)] if first else []
     return [*begin, *stages[:-1], replace(stages[-1], least_gain=least_gain)]

@@ -16,7 +16,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.fronts import front
-from jumpcad.search.phases import METHODS, SEARCH_PHASES, STAGES
+from jumpcad.search.methods import METHODS, SEARCH_PHASES, STAGES
 from jumpcad.search.robust_pick import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.evaluator import Evaluator, Watch

@@ -20,7 +20,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
-from jumpcad.search.phases import SEARCH_PHASES
+from jumpcad.search.methods import SEARCH_PHASES
 from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Position, Trial, in_order

@@ -9,8 +9,8 @@ from jumpcad.building import build
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.landing.landing import land
+from jumpcad.search.methods import EXPLORED, FRONTS, NAMES
 from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
-from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.robust_pick import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective, described_objective

@@ -19,7 +19,7 @@ from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.files.reading import to_csv
 from jumpcad.files.records import Text
 from jumpcad.findings import least
-from jumpcad.search.phases import PHASES, SEARCH_PHASES
+from jumpcad.search.methods import PHASES, SEARCH_PHASES
 from jumpcad.search.study.objective import EQUALS, Evaluation, Figure, Margin
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array

@@ -9,7 +9,7 @@ from support.quick import BEST, FIGURES, LIKE, SPACE, quick
 
 from jumpcad.findings import bare
 from jumpcad.search.estimate import estimate
-from jumpcad.search.estimate.estimate import FEW, MARK, Estimator, FittedFigures, features
+from jumpcad.search.estimate.estimate import BUILT_FIGURE, FEW, Estimator, FittedFigures, features
 from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
@@ -206,8 +206,8 @@ def test_what_masses_leap_with_is_told_by_the_layout():
     """Masses of which half follow a figure of the layout, that no polynomial of the parameters does."""
 
     def figures(x):
-        laid = {MARK: 20.0 * float(math.sin(40.0 * x[0]) > 0.0)}
-        return laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid[MARK])}
+        laid = {BUILT_FIGURE: 20.0 * float(math.sin(40.0 * x[0]) > 0.0)}
+        return laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid[BUILT_FIGURE])}
 
     points = SPACE.spread(64, np.random.default_rng(2))
     trials = list(trials_at(points, figures))
@@ -219,8 +219,8 @@ def test_what_masses_leap_with_is_told_by_the_layout():
 
 def test_without_a_layout_it_is_about_that_of_the_robots_beside_it():
     def figures(x):
-        laid = {MARK: 30.0 + 5.0 * x[0]}
-        return laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid[MARK])}
+        laid = {BUILT_FIGURE: 30.0 + 5.0 * x[0]}
+        return laid | {"body_mass_kg": math.exp(0.1 * x[1] + 0.02 * laid[BUILT_FIGURE])}
 
     points = SPACE.spread(120, np.random.default_rng(2))
     trials = list(trials_at(points, figures))
