@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 
-ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
 """Defaults of the options."""
 USED_BY = {
@@ -30,31 +29,28 @@ USED_BY = {
     "over": ("feasibility",),
 }
 """Views that an option applies to."""
-SamplesOption = Annotated[
-    int | None,
-    typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
-]
 ALONG = "Values of each parameter in a sweep or along an axis of the map."
-PointsOption = Annotated[int | None, typer.Option(help=ALONG, min=2, max=1000, show_default=str(POINTS))]
-AroundOption = Annotated[
-    str | None, typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND)
-]
-OverOption = Annotated[
-    str | None,
-    typer.Option(
-        help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
-    ),
-]
 
 
 @with_options
 def explore(
     *,
-    view: ViewArgument,
-    samples: SamplesOption = None,
-    points: PointsOption = None,
-    around: AroundOption = None,
-    over: OverOption = None,
+    view: Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))],
+    samples: Annotated[
+        int | None,
+        typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
+    ] = None,
+    points: Annotated[int | None, typer.Option(help=ALONG, min=2, max=1000, show_default=str(POINTS))] = None,
+    around: Annotated[
+        str | None,
+        typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
+    ] = None,
+    over: Annotated[
+        str | None,
+        typer.Option(
+            help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
+        ),
+    ] = None,
     options: SearchOptions,
     plots: PlotsOption = None,
     force: ForceFlag = False,

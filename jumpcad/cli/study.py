@@ -14,26 +14,20 @@ from jumpcad.errors import JumpcadError
 if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore
 
-StudiesArgument = Annotated[
-    list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")
-]
-ExportOption = Annotated[
-    Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
-]
-WatchFlag = Annotated[
-    bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
-]
 WATCH_S = 5.0
-ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
 
 def study(
-    files: StudiesArgument,
-    best: ListOption = 5,
-    export: ExportOption = None,
+    files: Annotated[list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")],
+    best: Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)] = 5,
+    export: Annotated[
+        Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
+    ] = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
-    watch: WatchFlag = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
+    ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""

@@ -2,7 +2,7 @@
 
 import xml.etree.ElementTree as ET
 
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty
 
 SHARES = {

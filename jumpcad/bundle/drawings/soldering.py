@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from jumpcad.electronics.nets import AT, Terminal, Wiring
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.electronics.leads import OWN_LEGS
 from jumpcad.robot.robot import Robot, decided_once
 

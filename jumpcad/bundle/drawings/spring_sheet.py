@@ -12,7 +12,7 @@ import numpy as np
 from jumpcad.bundle.springs import PAIR_PERCENT, arms_off_deg, loaded_arms, torque_shares
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
 from jumpcad.transforms import Array

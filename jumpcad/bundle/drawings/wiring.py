@@ -6,7 +6,7 @@ from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.bundle.drawings.soldering import soldering_svg
 from jumpcad.electronics.chosen import Chosen
 from jumpcad.electronics.nets import Net, Terminal, Wiring
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.electronics.leads import has_own_legs, lead_lengths
 from jumpcad.robot.robot import Robot
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
-from jumpcad.files.rendering import render
+from jumpcad.files.templates import render
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import CHOOSE

@@ -20,8 +20,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.rendering import fill
-from jumpcad.files.templates import templates_folder
+from jumpcad.files.templates import fill, templates_folder
 from jumpcad.search.explore import LEAST_R_SQUARED, importance
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
 from jumpcad.search.methods import FRONTS, LEARNING_PHASES
