@@ -228,6 +228,7 @@ class PrintedModel(RobotModel):
         from jumpcad.evaluation import evaluate_made
 
         shop, made = self.workshop or load_workshop(), partial(perturbed, values=self.perturbation)
+        settings = self.settings or Settings()
         result = evaluate_made(design, shop, self.settings, self.engine, made)
         robot = result.robot
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
@@ -240,12 +241,10 @@ class PrintedModel(RobotModel):
         if RESTS in asked:
             from jumpcad.landing.landing import rest_distance_m
 
-            resting, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
-            figures[RESTS] = rest_distance_m(resting, settings) if result.verdict == "jump" else 0.0
-        figures |= self.robust(robot, self.settings or Settings())
-        others: list[dict[str, float]] = []
-        if not self.perturbation:  # of what is made otherwise the floor is one
-            others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)
+            figures[RESTS] = rest_distance_m(*made(robot, settings)) if result.verdict == "jump" else 0.0
+        figures |= self.robust(robot, settings)
+        # of what is made otherwise the floor is one
+        others = [] if self.perturbation else self.on_floors(robot, settings, self.estimate_engine)
         return self.required(Evaluation(result.verdict, figures, findings), others)
 
     @property

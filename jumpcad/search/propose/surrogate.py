@@ -69,7 +69,7 @@ class Surrogate:
 
     def predict(self, points: Array) -> tuple[Array, Array]:
         """Return mean (m,) and standard deviation (m,) of the noise-free function at points (m, d)."""
-        covariance = self._covariance(points)
+        covariance = self._variance * _matern(self._distance(one_hot(points, self.categories)))
         half, _ = dtrtrs(self._chol, covariance.T, lower=True)
         variance = np.maximum(self._variance - np.einsum("ij,ij->j", half, half), 1e-12)
         return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
@@ -82,11 +82,6 @@ class Surrogate:
         mean, _ = self.predict(point[None])
         x, y, units = np.vstack([self.x, point]), np.append(self.y, mean), (self._centre, self._spread)
         return type(self)(x, y, self.theta, False, self.categories, units)
-
-    def _covariance(self, points: Array) -> Array:
-        """Return the covariance (m, n) of points with the data."""
-        covariance: Array = self._variance * _matern(self._distance(one_hot(points, self.categories)))
-        return covariance
 
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel.
@@ -104,8 +99,7 @@ class Surrogate:
 
 def _matern(distance: Array) -> Array:
     """Return the correlation at a distance √5·r (Rasmussen and Williams 2006, eq. 4.17)."""
-    correlation: Array = (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
-    return correlation
+    return np.asarray((1.0 + distance + distance**2 / 3.0) * np.exp(-distance))
 
 
 def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]:

@@ -75,12 +75,6 @@ def keep_pick(store: StudyStore, run: int, candidates: list[Candidate], bounds: 
     store.remember(PICKS, picks, _PICKS)
 
 
-def read_pick(store: StudyStore, designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
-    """Return what the last pick of a search of so many designs found; nothing where none has ended."""
-    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick.designs == designs and pick.candidates]
-    return (ended[-1].candidates, ended[-1].bounds or []) if ended else ([], [])
-
-
 def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | None) -> dict[str, float]:
     """Return the shares of drops and of own landings after which the winner stands, and keep them in the study.
 
@@ -140,7 +134,8 @@ def summary(store: StudyStore) -> StudySummary:
     held, identity = store.trials(), store.identity
     space = Space.from_record(identity["space"])
     trials = searched(held)
-    candidates, bounds = read_pick(store, len(trials))
+    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick.designs == len(trials) and pick.candidates]
+    candidates, bounds = (ended[-1].candidates, ended[-1].bounds or []) if ended else ([], [])
     seeks_one = identity["method"] in NAMES and identity["method"] not in FRONTS
     best = None if seeks_one and is_flat(trials) else best_trial(trials)
     winner = candidates[0].trial if candidates else best
