@@ -103,9 +103,10 @@ class Finding:
     """One checked limit, by the name of its check, such as `leg_strength`.
 
     The severity is `info` where the limit is kept; else `warning`, or `error` where it forbids the robot. The margin is
-    negative where the limit is violated, and in `unit`. The message says what was found, `ways` what to change, `remedy`
-    that in words. Value and limit are what was found and what is allowed, in `unit`; None where no single number is
-    compared. `grows` names the factor of `jumpcad.strength.growth.Growth` that makes the part stronger, if any does.
+    negative where the limit is violated, and in `unit`. The message says what was found, `ways` what to change,
+    `remedy` that in words. Value and limit are what was found and what is allowed, in `unit`; None where no single
+    number is compared. `grows` names the factor of `jumpcad.strength.growth.Growth` that makes the part
+    stronger, if any does.
     """
 
     name: str
