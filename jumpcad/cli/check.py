@@ -18,12 +18,9 @@ from jumpcad.cli.subjects import (
 )
 
 if TYPE_CHECKING:
-    from rich.text import Text
-
     from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
     from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import Jump
     from jumpcad.strength.growth import Grown
 
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
@@ -113,7 +110,7 @@ def check(
     """
     from jumpcad.building import build
     from jumpcad.building.bom import bill_of_materials
-    from jumpcad.bundle.limits import counted_limits, limits_of, ordered, with_verdict
+    from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
     from jumpcad.checks import basis_of
     from jumpcad.design import load_design
     from jumpcad.errors import CannotBuildError
@@ -149,7 +146,8 @@ def check(
     elif explain:
         _print_explained(explain, findings)
     else:
-        print(wrapped(_verdict(jump, findings, count), 2))
+        words = jump_in_words(jump.to_dict() | {"findings": []})
+        print(wrapped(f"{words}; {violation(findings) or f'all {count} limits are kept'}", 2))
         for note in notes(robot, findings):
             print(wrapped(f"note: {note}", 6))
         _print_findings(findings, every)
@@ -157,14 +155,6 @@ def check(
             print(wrapped(line, 2))
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
-
-
-def _verdict(jump: "Jump", findings: "list[Finding]", count: int) -> str:
-    """Return the sentence that comes first: the jump, and how many limits are kept or violated."""
-    from jumpcad.bundle.limits import violation
-
-    words = jump_in_words(jump.to_dict() | {"findings": []})
-    return f"{words}; {violation(findings) or f'all {count} limits are kept'}"
 
 
 def is_tight(finding: "Finding") -> bool:
@@ -218,23 +208,17 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
 
 
 def _print_findings(findings: "list[Finding]", every: bool) -> None:
+    from rich.text import Text
+
     limits = [finding for finding in findings if not finding.is_note]
     shown = [finding for finding in limits if every or finding.severity != "info" or is_tight(finding)]
     screen = console()
     for finding in shown:
-        word, name, use, margin, found = _cells(finding)
-        screen.print(word, f"{name}:", ", ".join(filter(None, (use, margin))))
-        print(wrapped(f"  {found}", 2))
+        kept = finding.severity == "info"
+        word = ("tight", "warning") if kept and is_tight(finding) else (WORDS[finding.severity], finding.severity)
+        use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
+        told = ", ".join(filter(None, (use, margin_in_words(finding))))
+        screen.print(Text(word[0], STYLES[word[1]]), f"{finding.name}:", told)
+        print(wrapped(f"  {finding.message}{'' if kept else f' → {finding.remedy}'}", 2))
     if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
         screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
-
-
-def _cells(finding: "Finding") -> "tuple[Text, str, str, str, str]":
-    """Return what is printed of a finding: a word, its name, use, margin, and what was found with the remedy."""
-    from rich.text import Text
-
-    remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
-    tight = finding.severity == "info" and is_tight(finding)
-    word = Text("tight", STYLES["warning"]) if tight else Text(WORDS[finding.severity], STYLES[finding.severity])
-    use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
-    return word, finding.name, use, margin_in_words(finding), finding.message + remedy

@@ -12,6 +12,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from threading import Thread
 from typing import Any
@@ -48,7 +49,7 @@ class Outcome:
     duration_s: float
 
 
-class Pool:
+class Pool(AbstractContextManager["Pool"]):
     """Runs so many evaluations at a time on an executor, and repeats those of lost workers.
 
     The executor is opened again after its processes were lost, and ended without waiting for running evaluations. After
@@ -65,9 +66,6 @@ class Pool:
         self._open, self._end = open_executor, end_executor
         self._limit_s, self._lost = limit_s, lost
         self._executor: Executor | None = None
-
-    def __enter__(self) -> "Pool":
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()

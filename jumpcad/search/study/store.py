@@ -9,7 +9,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -45,7 +45,7 @@ MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
 
-class StudyStore:
+class StudyStore(AbstractContextManager["StudyStore"]):
     """An open study file; `StudyStore.write` and `StudyStore.read` open one."""
 
     _connection: sqlite3.Connection
@@ -108,9 +108,6 @@ class StudyStore:
 
     def close(self) -> None:
         self._closing.close()
-
-    def __enter__(self) -> "StudyStore":
-        return self
 
     def __exit__(self, kind: object, error: BaseException | None, _: object) -> None:
         """Close the file; remove it if it was made for a request that is wrong, and holds no score."""
