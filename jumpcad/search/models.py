@@ -339,11 +339,9 @@ class PrintedModel(RobotModel):
 
 @check_arguments
 def robot_model(
-    name: str = "printed",
-    workshop: Workshop | str | Path | None = None,
-    settings: Settings | str | Path | None = None,
-    engine: str | None = None,
-) -> RobotModel:
+    name: str = "printed", workshop: Workshop | str | Path | None = None,
+    settings: Settings | str | Path | None = None, engine: str | None = None,
+) -> RobotModel:  # fmt: skip
     """Return the model of a name of `MODELS`; workshop and settings by name, as files, or loaded.
 
     If None, the default workshop and settings, and the first of PyBullet and MuJoCo that is installed.

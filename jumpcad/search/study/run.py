@@ -60,12 +60,9 @@ class Clock:
 
 @check_arguments
 def run_study(
-    request: Request,
-    path: str | Path | None,
-    pool: Pool,
-    watch: Watch = lambda trial, computed: None,
+    request: Request, path: str | Path | None, pool: Pool, watch: Watch = lambda trial, computed: None,
     tell: Callable[[str], object] = str,
-) -> Result:
+) -> Result:  # fmt: skip
     """Run a study, or continue the one in a file; None keeps it in memory.
 
     `tell` is called with the reasons, a line each, where none of the first designs jumps.
