@@ -18,7 +18,6 @@ from jumpcad.cli.subjects import (
 )
 
 if TYPE_CHECKING:
-    from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
     from jumpcad.robot.robot import Robot
     from jumpcad.strength.growth import Grown
@@ -111,9 +110,10 @@ def check(
     from jumpcad.building import build
     from jumpcad.building.bom import bill_of_materials
     from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
-    from jumpcad.checks import basis_of
+    from jumpcad.checks import CHECKS, basis_of
     from jumpcad.design import load_design
-    from jumpcad.errors import CannotBuildError
+    from jumpcad.errors import CannotBuildError, JumpcadError
+    from jumpcad.files import did_you_mean
     from jumpcad.findings import errors
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
     from jumpcad.simulation import headline
@@ -121,7 +121,8 @@ def check(
 
     note_template(design)
     if explain and basis_of(explain) is None:
-        raise _unknown(explain)
+        hint = did_you_mean(explain, [name for one in CHECKS for name in one.basis])
+        raise JumpcadError(f"no check makes a finding {explain!r}{hint}: jumpcad check DESIGN --all lists them")
     asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
     remedies = Remedies(asked, shop)
     try:
@@ -175,17 +176,6 @@ def margin_in_words(finding: "Finding") -> str:
     if unit not in COUNTED and abs(margin) < SMALL:
         return "at the limit" if margin >= 0.0 else "just beyond"
     return f"{margin:+.3g} {unit}".rstrip()
-
-
-def _unknown(name: str) -> "JumpcadError":
-    from jumpcad.checks import CHECKS
-    from jumpcad.errors import JumpcadError
-    from jumpcad.files import did_you_mean
-
-    known = [name for one in CHECKS for name in one.basis]
-    return JumpcadError(
-        f"no check makes a finding {name!r}{did_you_mean(name, known)}: jumpcad check DESIGN --all lists them"
-    )
 
 
 def _print_explained(name: str, findings: "list[Finding]") -> None:

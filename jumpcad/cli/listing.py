@@ -54,7 +54,10 @@ def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
         if number:
             print()
         print(f"{name} ({USED_AS[name]})")
-        _print(entries)
+        listed = table("name", "words", wraps="words", show_header=False, padding=(0, 2, 0, 0))
+        for entry, words in entries.items():
+            listed.add_row(f"  {entry}", words)
+        console().print(listed)
 
 
 def described(kind: str) -> dict[str, str]:
@@ -125,10 +128,3 @@ def _material(data: Mapping[str, Any]) -> str:
     strength = data.get("strength_in_plane_mpa")
     bears = f"{strength:g} MPa along its layers" if strength else "strengths to be entered in the workshop"
     return f"{data['density_g_cm3']:g} g/cm³, {bears}"
-
-
-def _print(entries: Mapping[str, str]) -> None:
-    listed = table("name", "words", wraps="words", show_header=False, padding=(0, 2, 0, 0))
-    for name, words in entries.items():
-        listed.add_row(f"  {name}", words)
-    console().print(listed)

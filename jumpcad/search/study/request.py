@@ -79,10 +79,9 @@ class Request:
             ("until_percent", self.until_percent, 0, 100),
             ("hours", self.hours, 0, 1e6),
         ):
-            if not value >= least:  # nor is NaN
-                raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
-            if value > most:
-                raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+            if not least <= value <= most:  # nor is NaN
+                limit = f"most {most}" if value > most else f"least {least}"
+                raise JumpcadError(f"{name} = {shown(value)} must be at {limit}")
         self.aim.require(self.model.figure_names)
         if self.is_front and self.cost.of_design is None:
             self.cost.figure.require(self.model.figure_names, "against")
