@@ -86,13 +86,9 @@ def check(robot: Mechanism | Design | str | Path) -> list[Finding]:
 
 @check_arguments
 def export(
-    robot: Robot | Design | str | Path,
-    folder: str | Path,
-    pictures: bool = True,
-    step: bool = False,
-    force: bool = False,
-    ros2: bool = False,
-) -> Bundle:
+    robot: Robot | Design | str | Path, folder: str | Path, pictures: bool = True, step: bool = False,
+    force: bool = False, ros2: bool = False,
+) -> Bundle:  # fmt: skip
     """Write a robot's bundle; see `jumpcad.bundle.export.export`.
 
     Raises

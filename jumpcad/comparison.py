@@ -18,8 +18,7 @@ from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.face import __version__
 from jumpcad.files import template_names
-from jumpcad.files.rendering import fill
-from jumpcad.files.templates import templates_folder
+from jumpcad.files.templates import fill, templates_folder
 from jumpcad.findings import Finding
 from jumpcad.landing.series import jumps
 from jumpcad.robot.robot import Robot
@@ -78,7 +77,6 @@ class ComparedRobot:
 
     @property
     def violated(self) -> list[str]:
-        """The names of its violated limits."""
         return [one.name for one in self.findings if one.severity != "info"]
 
     @cached_property

@@ -211,12 +211,9 @@ def _evaluated(design: Design, workshop: Workshop, settings: Settings, engine: s
 
 
 def evaluate_made(
-    design: Design,
-    workshop: Workshop,
-    settings: Settings | None,
-    engine: str,
+    design: Design, workshop: Workshop, settings: Settings | None, engine: str,
     made: Callable[[Robot, Settings], tuple[Robot, Settings]],
-) -> EvaluationResult:
+) -> EvaluationResult:  # fmt: skip
     """Return what `evaluate` returns, but with the jump of what `made` returns for robot and settings.
 
     Robot, size and findings besides the jump's are those of the design. The robot of the design before is kept, so that

@@ -100,22 +100,13 @@ def in_words(remedy: Remedy) -> str:
 
 @dataclass(frozen=True)
 class Finding:
-    """One checked limit.
+    """One checked limit, by the name of its check, such as `leg_strength`.
 
-    Attributes
-    ----------
-    name
-        Of the check, such as `leg_strength`.
-    severity
-        `info` where the limit is kept; else `warning`, or `error` where it forbids the robot.
-    margin
-        Signed, in `unit`: negative where the limit is violated, and by how much.
-    message, ways
-        What was found, and what to change; `remedy` says it in words.
-    value, limit
-        What was found and what is allowed, in `unit`; None where no single number is compared.
-    grows
-        The factor of `jumpcad.robot.sizing.Growth` that makes the part stronger, if any does.
+    The severity is `info` where the limit is kept; else `warning`, or `error` where it forbids the robot. The margin is
+    negative where the limit is violated, and in `unit`. The message says what was found, `ways` what to change,
+    `remedy` that in words. Value and limit are what was found and what is allowed, in `unit`; None where no single
+    number is compared. `grows` names the factor of `jumpcad.strength.growth.Growth` that makes the part
+    stronger, if any does.
     """
 
     name: str

@@ -91,7 +91,9 @@ def robot_html(robot: Mechanism) -> str:
         ("bought parts", str(len(robot.hardware))),
         ("printer", robot.workshop.printer.name),
     ]
-    return _picture(rest_picture(robot, PICTURE_SIZE)) + figures_table(robot.name, lines)
+    (width, height), data = PICTURE_SIZE, base64.b64encode(rest_picture(robot, PICTURE_SIZE)).decode("ascii")
+    picture = f'<img width="{width}" height="{height}" alt="the robot at rest" src="data:image/png;base64,{data}">'
+    return picture + figures_table(robot.name, lines)
 
 
 def jump_html(jump: Jump) -> str:
@@ -125,12 +127,6 @@ def _jump_lines(jump: Jump) -> list[Line]:
 
 def _error_lines(findings: Iterable[Finding]) -> list[Line]:
     return [(f"error: {finding.name}", f"{finding.message}; {finding.remedy}") for finding in errors(findings)]
-
-
-def _picture(png: bytes) -> str:
-    width, height = PICTURE_SIZE
-    data = base64.b64encode(png).decode("ascii")
-    return f'<img width="{width}" height="{height}" alt="the robot at rest" src="data:image/png;base64,{data}">'
 
 
 def figures_table(title: str, lines: Iterable[Line]) -> str:

@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 A = TypeVar("A")
 T = TypeVar("T")
-Shared = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
-"""Gives what a function returns for each argument: `one_by_one`, or on several cores."""
+MapOnCores = Callable[[Callable[[Any], Any], Sequence[Any]], list[Any]]
+"""Gives what a function returns for each argument: `in_turn`, or on several cores."""
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 """Environment of commands and of workers: small matrices gain nothing by threads, which wait for work at full speed."""
 THRESHOLDS = 50_000, 20, 20
@@ -38,8 +38,7 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def one_by_one(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
-    """Return what a function returns for each argument."""
+def in_turn(function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
     return [function(one) for one in arguments]
 
 

@@ -1,7 +1,7 @@
 """Remedies with numbers: what cures a limit that fails, found by trying; what a step beyond a limit would give."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,14 +28,11 @@ from jumpcad.workshop.tables import PRELOAD_MAX_DEG
 from jumpcad.workshop.varied import varied, workshop_value
 
 TRIES, CAGED_TRIES = 8, 5
-"""Designs that are built and simulated for the numbers of one robot, a second of work; a cage doubles that of each.
-
-One that cannot be built takes little time, and does not count.
-"""
-STEPS = 4
-"""Values of one parameter that are tried for one limit; once one cures, as many nearer ones."""
-NEAR = 0.9
-"""Share of the change that cures from which on a smaller one is not sought."""
+"""Designs that are built and simulated for the numbers of one robot, a second of work; a cage doubles that of each. One
+that cannot be built takes little time, and does not count."""
+STEPS, NEAR = 4, 0.9
+"""Values of one parameter that are tried for one limit, and once one cures, as many nearer ones; share of the change
+that cures from which on a smaller one is not sought."""
 FIRST, BEYOND = 0.125, 1.1
 """The first step as a share of the way to the end of a parameter's range; how much longer than guessed others are."""
 SLOW = (printability_findings, interference_findings, assembly_findings)
@@ -45,11 +42,9 @@ STEP, REACH, MORE = 0.01, 0.05, 0.05
 """Relative steps of each number, of the robots that are built and at most; what a limit gives more."""
 ALL = f"{MORE:.0%} more of all limits"
 TIGHT, STEEP, LEAST_MM, ROWS = 0.9, 0.5, 0.5, 5
-"""Least use of a limit that may end a design; least change of it over the relative change of a number; least gain that
-is told; limits that are told. Judgement.
-
-A limit that the eight numbers hardly move is one that parts are sized for: it costs grams, not range.
-"""
+"""Least use of a limit that may end a design; least change of it over the relative change of a number: one that the
+eight numbers hardly move is one that parts are sized for, which costs grams, not range; least gain that is told; limits
+that are told. Judgement."""
 
 
 class Remedies:
@@ -61,17 +56,14 @@ class Remedies:
         self._tried: dict[tuple[str, float], tuple[frozenset[str], dict[str, float]]] = {}
         self._costly: tuple[Check, ...] = ()
 
-    def of_findings(self, findings: Iterable[Finding]) -> list[Finding]:
+    def of_findings(self, findings: Sequence[Finding]) -> list[Finding]:
         """Return findings; the remedies of violated limits have a number where one is found.
 
         What the change for an earlier one cures has that as its remedy. Limits of `SLOW` checks keep theirs.
         """
-        findings = list(findings)
         slow = {name for check in CHECKS if check.find in SLOW for name in check.basis}
         wrong = frozenset(one.name for one in findings if one.severity != "info") - slow
-        self._costly = tuple(
-            one for one in CHECKS if not one.cheap and one.find not in SLOW and wrong & one.basis.keys()
-        )
+        self._costly = tuple(one for one in CHECKS if not one.cheap and wrong & one.basis.keys())
         cured: dict[str, Remedy] = {}
         numbered = []
         for one in findings:
@@ -153,12 +145,10 @@ class Remedies:
     def _found(self, key: str, value: float) -> tuple[frozenset[str], dict[str, float]]:
         """Return the names of the limits that are violated with another value, or `FAILS`, and margins of limits."""
         try:
-            design, workshop = self._design, self._workshop
             if key in PARAMETERS:
-                design = Design(**design.model_dump() | {key: value})
+                result = evaluate(Design(**self._design.model_dump() | {key: value}), self._workshop)
             else:
-                workshop = varied(workshop, {key: value})
-            result = evaluate(design, workshop)
+                result = evaluate(self._design, varied(self._workshop, {key: value}))
             found = [*result.findings, *(one for check in self._costly for one in check.find(result.robot))]
         except CannotBuildError as refusal:
             return frozenset([FAILS]), {FAILS: _margin(refusal)}

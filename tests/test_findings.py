@@ -11,16 +11,11 @@ from jumpcad.findings import Change, at_least, at_most, choose, higher, lower, n
 @each(
     ("value", "allowed", "margin", "use", "severity"),
     [
-        (10.0, 40.0, 30.0, 0.25, "info"),
-        (40.0, 40.0, 0.0, 1.0, "info"),
-        (50.0, 40.0, -10.0, 1.25, "error"),
-        (0.0, 40.0, 40.0, 0.0, "info"),
-        (-5.0, 40.0, 45.0, None, "info"),
-        (1.0, 0.0, -1.0, None, "error"),
-        (5.0, math.inf, math.inf, 0.0, "info"),
-        (math.inf, 5.0, -math.inf, math.inf, "error"),
+        (10.0, 40.0, 30.0, 0.25, "info"), (40.0, 40.0, 0.0, 1.0, "info"), (50.0, 40.0, -10.0, 1.25, "error"),
+        (0.0, 40.0, 40.0, 0.0, "info"), (-5.0, 40.0, 45.0, None, "info"), (1.0, 0.0, -1.0, None, "error"),
+        (5.0, math.inf, math.inf, 0.0, "info"), (math.inf, 5.0, -math.inf, math.inf, "error"),
     ],
-)
+)  # fmt: skip
 def test_use_is_the_value_over_a_maximum(
     value: float, allowed: float, margin: float, use: float | None, severity: str
 ) -> None:

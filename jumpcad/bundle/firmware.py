@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.files import templates_folder
-from jumpcad.files.rendering import fill, render
+from jumpcad.files.templates import fill, render
 from jumpcad.robot.robot import Robot
 
 FOLDER = "firmware"

@@ -22,8 +22,7 @@ from jumpcad.exporters.xml import allowed
 from jumpcad.face import __version__
 from jumpcad.files import Record, TomlTable, find_template, template_names
 from jumpcad.files.records import Name
-from jumpcad.files.rendering import fill
-from jumpcad.files.templates import templates_folder
+from jumpcad.files.templates import fill, templates_folder
 from jumpcad.findings import errors
 from jumpcad.landing.series import Series
 from jumpcad.robot.robot import Robot

@@ -90,8 +90,7 @@ def build(
 def render(
     subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
     output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures"),
+        Path | None, typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures")
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,
@@ -197,28 +196,18 @@ def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -
     train, sure = robot.layout.drive.train, uncertainty_of(robot) if printed.verdict == "jump" else None
     energy, findings = robot.spring.energy_j, with_verdict(limits_of(robot), printed)
     return {
-        "name": robot.name,
-        "folder": str(bundle.folder),
-        "files": [*bundle.files],
-        "mass_kg": robot.mass_kg,
-        "masses": bundle.manifest["masses"],
-        "spring_energy_j": energy,
+        "name": robot.name, "folder": str(bundle.folder), "files": [*bundle.files], "mass_kg": robot.mass_kg,
+        "masses": bundle.manifest["masses"], "spring_energy_j": energy,
         "winding": {
-            "motor": train.motor.name,
-            "ratio": train.ratio,
-            "time_s": train.winding_s,
-            "electrical_j": train.electrical_j,
-            "motor_j": train.motor_j,
-            "boards_j": train.boards_j,
+            "motor": train.motor.name, "ratio": train.ratio, "time_s": train.winding_s,
+            "electrical_j": train.electrical_j, "motor_j": train.motor_j, "boards_j": train.boards_j,
             "efficiency": energy / train.electrical_j,
         },
         "notes": [*(finding.message for finding in engraving_findings(robot)), *notes(robot, findings)],
         "violated": [finding.to_dict() for finding in ordered(findings) if finding.severity != "info"],
-        "violation": violation(findings),
-        "jump": printed.to_dict(),
-        "as_made": None if sure is None else sure.quantiles,
-        "capsule_jump": capsule.to_dict(),
-    }
+        "violation": violation(findings), "jump": printed.to_dict(),
+        "as_made": None if sure is None else sure.quantiles, "capsule_jump": capsule.to_dict(),
+    }  # fmt: skip
 
 
 def _print_facts(facts: dict[str, Any], parts: bool) -> None:

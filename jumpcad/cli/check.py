@@ -7,16 +7,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json, wrapped
-from jumpcad.cli.subjects import MaterialOption, PrinterOption, WorkshopOption, completion, name_of, note_template
+from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
+from jumpcad.cli.subjects import (
+    MaterialOption,
+    OwnDesignArgument,
+    PrinterOption,
+    WorkshopOption,
+    name_of,
+    note_template,
+)
 
 if TYPE_CHECKING:
-    from rich.text import Text
-
-    from jumpcad.errors import JumpcadError
     from jumpcad.findings import Finding
     from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import Jump
     from jumpcad.strength.growth import Grown
 
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
@@ -85,12 +88,7 @@ def grown_in_words(grown: "Sequence[Grown]") -> str:
 
 
 def check(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")
-        ),
-    ],
+    design: OwnDesignArgument,
     workshop: WorkshopOption = None,
     printer: PrinterOption = None,
     material: MaterialOption = None,
@@ -111,10 +109,11 @@ def check(
     """
     from jumpcad.building import build
     from jumpcad.building.bom import bill_of_materials
-    from jumpcad.bundle.limits import counted_limits, limits_of, ordered, with_verdict
-    from jumpcad.checks import basis_of
+    from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
+    from jumpcad.checks import CHECKS, basis_of
     from jumpcad.design import load_design
-    from jumpcad.errors import CannotBuildError
+    from jumpcad.errors import CannotBuildError, JumpcadError
+    from jumpcad.files import did_you_mean
     from jumpcad.findings import errors
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
     from jumpcad.simulation import headline
@@ -122,7 +121,8 @@ def check(
 
     note_template(design)
     if explain and basis_of(explain) is None:
-        raise _unknown(explain)
+        hint = did_you_mean(explain, [name for one in CHECKS for name in one.basis])
+        raise JumpcadError(f"no check makes a finding {explain!r}{hint}: jumpcad check DESIGN --all lists them")
     asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
     remedies = Remedies(asked, shop)
     try:
@@ -147,7 +147,8 @@ def check(
     elif explain:
         _print_explained(explain, findings)
     else:
-        print(wrapped(_verdict(jump, findings, count), 2))
+        words = jump_in_words(jump.to_dict() | {"findings": []})
+        print(wrapped(f"{words}; {violation(findings) or f'all {count} limits are kept'}", 2))
         for note in notes(robot, findings):
             print(wrapped(f"note: {note}", 6))
         _print_findings(findings, every)
@@ -155,14 +156,6 @@ def check(
             print(wrapped(line, 2))
     if jump.verdict != "jump" or errors(findings):
         raise typer.Exit(1)
-
-
-def _verdict(jump: "Jump", findings: "list[Finding]", count: int) -> str:
-    """Return the sentence that comes first: the jump, and how many limits are kept or violated."""
-    from jumpcad.bundle.limits import violation
-
-    words = jump_in_words(jump.to_dict() | {"findings": []})
-    return f"{words}; {violation(findings) or f'all {count} limits are kept'}"
 
 
 def is_tight(finding: "Finding") -> bool:
@@ -185,60 +178,37 @@ def margin_in_words(finding: "Finding") -> str:
     return f"{margin:+.3g} {unit}".rstrip()
 
 
-def _unknown(name: str) -> "JumpcadError":
-    from jumpcad.checks import CHECKS
-    from jumpcad.errors import JumpcadError
-    from jumpcad.files import did_you_mean
-
-    known = [name for one in CHECKS for name in one.basis]
-    return JumpcadError(
-        f"no check makes a finding {name!r}{did_you_mean(name, known)}: jumpcad check DESIGN --all lists them"
-    )
-
-
 def _print_explained(name: str, findings: "list[Finding]") -> None:
     """Print formula and source of a limit, and what was found in this robot."""
-    from rich.table import Table
-
     from jumpcad.checks import SYMBOLS, basis_of
 
     basis = basis_of(name)
     assert basis is not None
-    table = Table(box=None, pad_edge=False, show_header=False)
-    table.add_column(no_wrap=True)
-    table.add_column()
-    table.add_row("formula", basis.formula)
-    table.add_row("symbols", SYMBOLS)
-    table.add_row("source", basis.source)
+    told = table("name", "words", wraps="words", show_header=False)
+    for words in (("formula", basis.formula), ("symbols", SYMBOLS), ("source", basis.source)):
+        told.add_row(*words)
     for finding in findings:
         use = "" if finding.use is None else f"{100.0 * finding.use:.0f} % used, "
         state = f"{WORDS[finding.severity]}, {use}{margin_in_words(finding)}".removesuffix(", ")
-        table.add_row(finding.name, f"{state}: {finding.message}")
-        table.add_row("remedy", finding.remedy)
-    screen = console()
-    screen.print(table)
+        told.add_row(finding.name, f"{state}: {finding.message}")
+        told.add_row("remedy", finding.remedy)
+    console().print(told)
     if not findings:
-        screen.print(f"{name}: not a limit of this robot, or reported only where it fails")
+        console().print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
 def _print_findings(findings: "list[Finding]", every: bool) -> None:
+    from rich.text import Text
+
     limits = [finding for finding in findings if not finding.is_note]
     shown = [finding for finding in limits if every or finding.severity != "info" or is_tight(finding)]
     screen = console()
     for finding in shown:
-        word, name, use, margin, found = _cells(finding)
-        screen.print(word, f"{name}:", ", ".join(filter(None, (use, margin))))
-        print(wrapped(f"  {found}", 2))
+        kept = finding.severity == "info"
+        word = ("tight", "warning") if kept and is_tight(finding) else (WORDS[finding.severity], finding.severity)
+        use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
+        told = ", ".join(filter(None, (use, margin_in_words(finding))))
+        screen.print(Text(word[0], STYLES[word[1]]), f"{finding.name}:", told)
+        print(wrapped(f"  {finding.message}{'' if kept else f' → {finding.remedy}'}", 2))
     if left := sum(finding.counts for finding in limits) - sum(finding.counts for finding in shown):
         screen.print(f"{left} more are kept with more than {100.0 - 100.0 * TIGHT:.0f} % to spare: --all shows them")
-
-
-def _cells(finding: "Finding") -> "tuple[Text, str, str, str, str]":
-    """Return what is printed of a finding: a word, its name, use, margin, and what was found with the remedy."""
-    from rich.text import Text
-
-    remedy = "" if finding.severity == "info" else f" → {finding.remedy}"
-    tight = finding.severity == "info" and is_tight(finding)
-    word = Text("tight", STYLES["warning"]) if tight else Text(WORDS[finding.severity], STYLES[finding.severity])
-    use = "" if finding.use is None else f"{100.0 * finding.use:.0f} %"
-    return word, finding.name, use, margin_in_words(finding), finding.message + remedy

@@ -16,7 +16,7 @@ LINE = re.compile(r"(?P<key>\w+)(?P<equals> = )(?P<value>.*?)(?P<comment>\s+#.*)
 def commented_design(design: "Design", origin: str, file: str) -> str:
     """Return the TOML document of a design with unit, searched range and effect of every number."""
     from jumpcad.design import PARAMETERS, PRINTED_BOUNDS
-    from jumpcad.files.rendering import fill
+    from jumpcad.files.templates import fill
 
     numbers = dict(zip(PARAMETERS, design.to_vector(), strict=True))
     values = {"origin": origin, "file": shell_quoted(file), "numbers": numbers, "bounds": PRINTED_BOUNDS}
@@ -118,14 +118,8 @@ def _written(value: Any) -> str:
     """Return a value as TOML, on one line."""
     import tomli_w
 
-    return (
-        tomli_w.dumps({"x": value})
-        .removeprefix("x = ")
-        .strip()
-        .replace("[\n    ", "[")
-        .replace(",\n]", "]")
-        .replace(",\n    ", ", ")
-    )
+    text = tomli_w.dumps({"x": value}).removeprefix("x = ").strip()
+    return text.replace("[\n    ", "[").replace(",\n]", "]").replace(",\n    ", ", ")
 
 
 def _written_key(key: str) -> str:

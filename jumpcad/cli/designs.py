@@ -11,6 +11,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, shell_quoted, st
 from jumpcad.cli.subjects import (
     DesignArgument,
     MaterialOption,
+    OwnDesignArgument,
     PrinterOption,
     SeedOption,
     WorkshopOption,
@@ -48,57 +49,36 @@ def new(
     as_json: JsonFlag = False,
 ) -> None:
     """Write a new design file, copied from a template; with --workshop, --printer or --material a workshop file."""
-    from jumpcad.files.outputs import require_apart, require_target
+    from jumpcad.cli.commented import commented_design, commented_workshop
+    from jumpcad.design import load_design
+    from jumpcad.files.outputs import require_apart, require_target, write_atomically
+    from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
 
     for_workshop = any(value is not None for value in (workshop, printer, material))
     if for_workshop and template is not None:
         raise JumpcadError(f"--from {template}: a workshop file has no design; leave --from out, or write two files")
     require_apart({"the new file": file}, {"--from": template, "--workshop": workshop, "--printer": printer})
     require_target(file, (".toml",), force)
+    name, quoted = without_controls(str(file)), shell_quoted(str(file))
     if for_workshop:
-        _new_workshop(file, workshop, printer, material, force, as_json)
+        base = DEFAULT if workshop is None else workshop
+        shop = load_workshop(base, printer, material)
+        text, data = commented_workshop(shop, without_controls(base)), {"workshop": shop.model_dump(exclude_none=True)}
+        use = f"check {base if own_workshop(base) == base != DEFAULT else TEMPLATE} --workshop {quoted}"
     else:
-        _new_design(file, TEMPLATE if template is None else template, force, as_json)
-
-
-def _new_design(file: Path, template: str, force: bool, as_json: bool) -> None:
-    from jumpcad.cli.commented import commented_design
-    from jumpcad.design import load_design
-    from jumpcad.files.outputs import write_atomically
-
-    design, name = load_design(template), without_controls(str(file))
-    write_atomically(file, commented_design(design, without_controls(template), name), force)
+        base = TEMPLATE if template is None else template
+        design = load_design(base)
+        text, data = commented_design(design, without_controls(base), name), {"design": design.model_dump()}
+        use = f"simulate {quoted}"
+    write_atomically(file, text, force)
     if as_json:
-        print_json({"file": str(file), "design": design.model_dump()})
+        print_json({"file": str(file), **data})
     else:
-        print(f"{name}: a copy of {without_controls(template)}; try: jumpcad simulate {shell_quoted(str(file))}")
-
-
-def _new_workshop(
-    file: Path, base: str | None, printer: str | None, material: str | None, force: bool, as_json: bool
-) -> None:
-    from jumpcad.cli.commented import commented_workshop
-    from jumpcad.files.outputs import write_atomically
-    from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
-
-    base = DEFAULT if base is None else base
-    workshop, name = load_workshop(base, printer, material), without_controls(str(file))
-    write_atomically(file, commented_workshop(workshop, without_controls(base)), force)
-    if as_json:
-        print_json({"file": str(file), "workshop": workshop.model_dump(exclude_none=True)})
-    else:
-        design = base if own_workshop(base) == base != DEFAULT else TEMPLATE
-        use = f"jumpcad check {design} --workshop {shell_quoted(str(file))}"
-        print(f"{name}: a copy of {without_controls(base)}; try: {use}")
+        print(f"{name}: a copy of {without_controls(base)}; try: jumpcad {use}")
 
 
 def cage(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")
-        ),
-    ],
+    design: OwnDesignArgument,
     workshop: WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="The workshop file; printed without.")] = None,
     force: ForceFlag = False,

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
-from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, with_options
+from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, watching, with_options
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 
-ViewArgument = Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))]
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
 """Defaults of the options."""
 USED_BY = {
@@ -31,39 +29,28 @@ USED_BY = {
     "over": ("feasibility",),
 }
 """Views that an option applies to."""
-SamplesOption = Annotated[
-    int | None,
-    typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
-]
-PointsOption = Annotated[
-    int | None,
-    typer.Option(
-        help="Values of each parameter in a sweep or along an axis of the map.",
-        min=2,
-        max=1000,
-        show_default=str(POINTS),
-    ),
-]
-AroundOption = Annotated[
-    str | None,
-    typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
-]
-OverOption = Annotated[
-    str | None,
-    typer.Option(
-        help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
-    ),
-]
+ALONG = "Values of each parameter in a sweep or along an axis of the map."
 
 
 @with_options
 def explore(
     *,
-    view: ViewArgument,
-    samples: SamplesOption = None,
-    points: PointsOption = None,
-    around: AroundOption = None,
-    over: OverOption = None,
+    view: Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))],
+    samples: Annotated[
+        int | None,
+        typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
+    ] = None,
+    points: Annotated[int | None, typer.Option(help=ALONG, min=2, max=1000, show_default=str(POINTS))] = None,
+    around: Annotated[
+        str | None,
+        typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
+    ] = None,
+    over: Annotated[
+        str | None,
+        typer.Option(
+            help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
+        ),
+    ] = None,
     options: SearchOptions,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -108,11 +95,7 @@ def explore(
         total = sum(counts.values()) if view == "sweep" else math.prod(counts.get(name, points) for name in names)
         view_of = _swept if view == "sweep" else partial(_mapped, names=names)
         run = partial(view_of, centre=centre, points=points)
-    with (
-        options.pool() as pool,
-        StudyStore.write(options.study, identity) as store,
-        watching(total, as_json) as watch,
-    ):
+    with options.pool() as pool, StudyStore.write(options.study, identity) as store, watching(total, as_json) as watch:
         data, figures = run(Evaluator(request, store, pool, watch=watch))
     if plots is not None:
         from jumpcad.search.report.figures import save_figure
@@ -138,16 +121,12 @@ def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
     sweeps = sweep(evaluator, centre, points)
     data = {
         one.parameter: [
-            {
-                "value": one.names[int(value)] if one.names else value,
-                "score": trial.score,
-                "verdict": trial.evaluation.verdict,
-                "reasons": trial.evaluation.reasons,
-            }
+            {"value": one.names[int(value)] if one.names else value, "score": trial.score,
+             "verdict": trial.evaluation.verdict, "reasons": trial.evaluation.reasons}
             for value, trial in zip(one.values, one.trials, strict=True)
         ]
         for one in sweeps
-    }
+    }  # fmt: skip
     words = {"units": {one.parameter: unit_of_key(one.parameter) for one in sweeps},
              "score_unit": evaluator.objective.unit}  # fmt: skip
     return {"sweeps": data, **words}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
@@ -161,12 +140,8 @@ def _sampled(evaluator: "Evaluator", view: str, samples: int, seed: int) -> Foun
     if view == "importance":
         found = importance(evaluator, trials, seed)
         order = found.mean.argsort()[::-1]
-        data = {
-            "importance": {found.names[i]: found.mean[i] for i in order},
-            "deviation": {found.names[i]: found.deviation[i] for i in order},
-            "r_squared": found.r_squared,
-            "designs": found.designs,
-        }
+        means, deviations = ({found.names[i]: of[i] for i in order} for of in (found.mean, found.deviation))
+        data = {"importance": means, "deviation": deviations, "r_squared": found.r_squared, "designs": found.designs}
         if found.r_squared < LEAST_R_SQUARED:
             data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
         return data, {"importance": lambda: plots.importance(found)}
@@ -184,9 +159,6 @@ def _mapped(evaluator: "Evaluator", centre: "Design", names: list[str], points: 
 
     found = feasibility_map(evaluator, centre, names[0], names[1], points)
     reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
-    data = {
-        "x": {"name": found.x_name, "values": found.x_names or found.x},
-        "y": {"name": found.y_name, "values": found.y_names or found.y},
-        "verdicts": reasons,
-    }
-    return data, {"feasibility": lambda: plots.feasibility(found, centre)}
+    x = {"name": found.x_name, "values": found.x_names or found.x}
+    y = {"name": found.y_name, "values": found.y_names or found.y}
+    return {"x": x, "y": y, "verdicts": reasons}, {"feasibility": lambda: plots.feasibility(found, centre)}

@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from jumpcad.cli.output import JsonFlag, console, print_json
+from jumpcad.cli.output import JsonFlag, console, print_json, table
 from jumpcad.errors import JumpcadError
 
 USED_AS = {
@@ -47,18 +47,17 @@ def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
         raise JumpcadError(f"{kind!r} is none of the kinds {', '.join(USED_AS)}{did_you_mean(kind, USED_AS)}")
     found = {name: described(name) for name in (GROUPS.get(kind, (kind,)) if kind else USED_AS)}
     if as_json:
-        print_json(
-            {
-                name: [{"name": key, "description": words} for key, words in entries.items()]
-                for name, entries in found.items()
-            }
-        )
+        print_json({kind: [{"name": name, "description": words} for name, words in entries.items()]
+                    for kind, entries in found.items()})  # fmt: skip
         return
     for number, (name, entries) in enumerate(found.items()):
         if number:
             print()
         print(f"{name} ({USED_AS[name]})")
-        _print(entries)
+        listed = table("name", "words", wraps="words", show_header=False, padding=(0, 2, 0, 0))
+        for entry, words in entries.items():
+            listed.add_row(f"  {entry}", words)
+        console().print(listed)
 
 
 def described(kind: str) -> dict[str, str]:
@@ -129,14 +128,3 @@ def _material(data: Mapping[str, Any]) -> str:
     strength = data.get("strength_in_plane_mpa")
     bears = f"{strength:g} MPa along its layers" if strength else "strengths to be entered in the workshop"
     return f"{data['density_g_cm3']:g} g/cm³, {bears}"
-
-
-def _print(entries: Mapping[str, str]) -> None:
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False, show_header=False, padding=(0, 2, 0, 0))
-    table.add_column(no_wrap=True)
-    table.add_column()
-    for name, words in entries.items():
-        table.add_row(f"  {name}", words)
-    console().print(table)

@@ -24,13 +24,9 @@ def reproduce(as_json: JsonFlag = False) -> None:
 
     rows = reproduction.reproduce()
     if as_json:
-        print_json(
-            {
-                "robots": [row.to_dict() for row in rows],
-                "hyperparameters": [asdict(item) for item in reproduction.HYPERPARAMETERS],
-                "why_they_differ": reproduction.WHY_THEY_DIFFER,
-            }
-        )
+        items = [asdict(item) for item in reproduction.HYPERPARAMETERS]
+        why = reproduction.WHY_THEY_DIFFER
+        print_json({"robots": [row.to_dict() for row in rows], "hyperparameters": items, "why_they_differ": why})
         return
     screen, style = console(highlight=False), {"title_justify": "left", "box": SIMPLE, "pad_edge": True}
     screen.print(_results(rows, style))

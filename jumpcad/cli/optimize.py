@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
-from jumpcad.cli.progress import watching
-from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, with_options
+from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, watching, with_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -38,8 +37,6 @@ EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, 
 OutputOption = Annotated[
     Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
 ]
-
-
 NO_PICK = f"none for the robust pick, which needs {4 * LEAST_PICK} in all"
 
 

@@ -42,17 +42,13 @@ def shell_quoted(file: str) -> str:
     return shlex.quote(without_controls(file))
 
 
-def shortened(text: str) -> str:
-    """Return a text without its middle where it is longer than `LONGEST_LINE`."""
-    half = LONGEST_LINE // 2
-    return text if len(text) <= LONGEST_LINE else f"{text[:half]} … {text[-half:]}"
-
-
 def complain(message: str, exit_code: int) -> int:
-    """Print an error as one line on standard error; return the exit code."""
+    """Print an error as one line on standard error, of a long one beginning and end; return the exit code."""
+    text, half = without_controls(message), LONGEST_LINE // 2
+    text = text if len(text) <= LONGEST_LINE else f"{text[:half]} … {text[-half:]}"
     if sys.stderr is not None:
         try:
-            print(f"jumpcad: {shortened(without_controls(message))}", file=sys.stderr, flush=True)
+            print(f"jumpcad: {text}", file=sys.stderr, flush=True)
         except (OSError, ValueError):  # standard error is closed too
             _discard(sys.stderr)
     return exit_code
@@ -76,13 +72,11 @@ class Output:
         return Output(self._stream, coloured=True)
 
     def write(self, text: str) -> int:
-        """Write text."""
         with self._written():
             self._stream.write(without_controls(text, self._kept))
         return len(text)
 
     def flush(self) -> None:
-        """Write what is buffered."""
         with self._written():
             self._stream.flush()
 
@@ -177,7 +171,7 @@ def _log(texts: Sequence[str], done: Event) -> None:
 
 def text_of(name: str, /, **values: Any) -> str:
     """Return a template of `templates/texts` with values in it; each stays on its line."""
-    from jumpcad.files.rendering import environment
+    from jumpcad.files.templates import environment
 
     texts = environment().overlay(finalize=lambda value: without_controls(value) if isinstance(value, str) else value)
     return texts.get_template(f"texts/{name}.txt.j2").render(values)

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
+OUTPUT, DEFAULTS = "Folder, or with --measured the workshop file.", f"{FOLDER}, or {WORKSHOP}"
 WIDE = 120
 """Width of a table with the longest names of parts (characters)."""
 
@@ -23,15 +24,7 @@ def coupon(
         Path | None, typer.Option(help="Turn these readings into a workshop file.", metavar="READINGS.toml")
     ] = None,
     workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a file.")] = "default",
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            help="Folder, or with --measured the workshop file.",
-            show_default=f"{FOLDER}, or {WORKSHOP}",
-        ),
-    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help=OUTPUT, show_default=DEFAULTS)] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -153,19 +146,14 @@ def slice_command(
 
 
 def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) -> dict[str, Any]:
-    """Return the JSON document of a sliced bundle."""
     return {
-        "bundle": str(bundle),
-        "slicer": found.version,
+        "bundle": str(bundle), "slicer": found.version,
         "ignored": {key: {"asked": asked, "used": used} for key, (asked, used) in found.ignored.items()},
         "parts": [vars(part) | {"difference": part.difference} for part in found.parts],
-        "plates": [vars(plate) for plate in found.plates],
-        "left_out": list(found.left_out),
-        "grams": sum(plate.grams for plate in found.plates),
-        "time_s": sum(plate.time_s for plate in found.plates),
-        "workshop": write_masses and str(write_masses),
-        "written": found.billed,
-    }
+        "plates": [vars(plate) for plate in found.plates], "left_out": list(found.left_out),
+        "grams": sum(plate.grams for plate in found.plates), "time_s": sum(plate.time_s for plate in found.plates),
+        "workshop": write_masses and str(write_masses), "written": found.billed,
+    }  # fmt: skip
 
 
 def _print_sliced(found: "SlicedBundle") -> None:

@@ -2,7 +2,7 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -18,9 +18,6 @@ from jumpcad.cli.subjects import (
     reject_workshop,
 )
 from jumpcad.errors import JumpcadError, without_controls
-
-if TYPE_CHECKING:
-    from jumpcad.comparison import Comparison
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -53,7 +50,6 @@ def report(
 
 
 def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:
-    """Write the page of a study; return its path."""
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
     from jumpcad.search.report.page import write_study_page
     from jumpcad.search.study.store import StudyStore
@@ -132,19 +128,15 @@ def compare(
     if as_json:
         print_json(found.to_dict() | {"page": str(output)})
     else:
-        _print(found, output)
+        figures = table("", *(f">{without_controls(one.label)}" for one in found.robots), collapse_padding=True)
+        for row in found.rows():
+            figures.add_row(*row)
+        for column in figures.columns:
+            column.overflow = "fold"
+        figures.columns[0].no_wrap = True
+        console().print(figures)
+        for label, why in found.refused.items():
+            print(f"{without_controls(label)} cannot be built: {why}")
+        print(f"open {without_controls(str(output))}: they jump side by side to one scale")
     if found.refused or any(errors(one.findings) for one in found.robots):
         raise typer.Exit(1)
-
-
-def _print(found: "Comparison", output: Path) -> None:
-    figures = table("", *(f">{without_controls(one.label)}" for one in found.robots), collapse_padding=True)
-    for row in found.rows():
-        figures.add_row(*row)
-    for column in figures.columns:
-        column.overflow = "fold"
-    figures.columns[0].no_wrap = True
-    console().print(figures)
-    for label, why in found.refused.items():
-        print(f"{without_controls(label)} cannot be built: {why}")
-    print(f"open {without_controls(str(output))}: they jump side by side to one scale")

@@ -1,29 +1,34 @@
-"""The options of `explore` and `optimize`, and checks of their files."""
+"""What `explore` and `optimize` share: options, checks of files, progress on standard error."""
 
 import functools
 import inspect
 import os
-from collections.abc import Callable, Iterable, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
 
+from jumpcad.cli.output import status
 from jumpcad.cli.subjects import SeedOption
+from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.search.phases import PAPER, UNTIL_PERCENT
+from jumpcad.search.methods import PAPER, SEARCH_PHASES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
     from jumpcad.search.models import RobotModel
     from jumpcad.search.space import Space
+    from jumpcad.search.study.evaluator import Watch
     from jumpcad.search.study.pool import Pool
     from jumpcad.search.study.request import Request
+    from jumpcad.search.study.trial import Trial
 
 PlotsOption = Annotated[
     Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
 ]
-
 KEYWORD = inspect.Parameter.KEYWORD_ONLY
 
 
@@ -85,15 +90,13 @@ class SearchOptions:
         """Return the space of a robot's workshop that the options describe."""
         from jumpcad.search.space import Space
 
-        changes = self.fix or (), self.bound or (), self.choose or ()
-        return Space.parse(*changes, workshop=robot.workshop, **others)
+        return Space.parse(self.fix or (), self.bound or (), self.choose or (), workshop=robot.workshop, **others)
 
     def inputs(self) -> dict[str, str | None]:
         """Return the files that are read, by their options."""
         return {"--workshop": self.workshop, "--settings": self.settings}
 
     def pool(self) -> "Pool":
-        """Return the pool that the options describe."""
         from jumpcad.search.study.pool import open_pool
 
         return open_pool(self.workers, self.dask, self.limit)
@@ -153,7 +156,6 @@ class OptimizeOptions(SearchOptions):
     ] = None
 
     def robot_model(self) -> "RobotModel":
-        """Return the model that the options describe, with what is required."""
         return super().robot_model().requiring(self.require or ())
 
     def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[Request]":
@@ -175,7 +177,6 @@ class OptimizeOptions(SearchOptions):
         ]  # fmt: skip
 
     def inputs(self) -> dict[str, Any]:
-        """Return the files that are read, by their options."""
         starts = {f"--start {one}": one for one in self.start or ()}
         return {"--from-study": self.from_study, "--around": self.around, **starts, **super().inputs()}
 
@@ -187,10 +188,8 @@ def with_options(command: Callable[..., None]) -> Callable[..., None]:
     parameters: list[inspect.Parameter] = []
     for parameter in inspect.signature(command).parameters.values():
         if parameter.name == "options":
-            parameters += [
-                inspect.Parameter(field.name, KEYWORD, annotation=hints[field.name], default=field.default)
-                for field in fields(record)
-            ]
+            parameters += [inspect.Parameter(one.name, KEYWORD, annotation=hints[one.name], default=one.default)
+                           for one in fields(record)]  # fmt: skip
         else:
             parameters.append(parameter.replace(kind=KEYWORD))
 
@@ -223,3 +222,49 @@ def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
         for suffix in (".svg", ".png"):
             require_free(folder / f"{name}{suffix}", force)
     require_writable(folder)
+
+
+class Tally:
+    """Progress of a search: evaluations done, best score, rate and time left.
+
+    Trials that are read from the study file count as done, but not for the rate.
+    """
+
+    def __init__(self, total: int) -> None:
+        self._total, self._done, self._computed = total, 0, 0
+        self._best: float | None = None
+        self._start_s = time.monotonic()
+
+    def add(self, trial: "Trial", computed: bool) -> str:
+        """Count a trial, which was `computed` or read from the study file; return the progress as one line of text."""
+        self._done += 1
+        self._total = max(self._total, self._done)
+        searching = trial.phase in SEARCH_PHASES
+        if searching and trial.score is not None:
+            self._best = trial.score if self._best is None else max(self._best, trial.score)
+        self._computed += computed
+        if not self._computed:
+            self._start_s = time.monotonic()
+        rate = self._computed / elapsed if (elapsed := time.monotonic() - self._start_s) > 0 else 0.0
+        best = "–" if self._best is None else f"{self._best:.4g}"
+        left = f", about {duration((self._total - self._done) / rate)} left" if rate else ""
+        done = f"{self._done} of {counted(self._total, 'evaluation')}"
+        return f"{trial.phase if searching else 'robust pick'}: {done}, best {best}, {rate:.2g}/s{left}"
+
+
+def duration(seconds: float) -> str:
+    """Return a time in seconds, minutes or hours."""
+    if seconds < 90:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 5400 else f"{seconds / 3600:.1f} h"
+
+
+@contextmanager
+def watching(total: int, quiet: bool) -> Iterator["Watch"]:
+    """Show the progress of a search while it runs: always on a terminal, otherwise one line per minute."""
+    if quiet:
+        yield lambda trial, computed: None
+        return
+    tally = Tally(total)
+    with status("search …") as tell:
+        yield lambda trial, computed: tell(tally.add(trial, computed))

@@ -13,7 +13,7 @@ import typer
 from jumpcad.cli.output import console, table
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
-from jumpcad.search.phases import FRONTS
+from jumpcad.search.methods import FRONTS
 
 if TYPE_CHECKING:
     from jumpcad.search.study.request import Request

@@ -14,26 +14,20 @@ from jumpcad.errors import JumpcadError
 if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore
 
-StudiesArgument = Annotated[
-    list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")
-]
-ExportOption = Annotated[
-    Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
-]
-WatchFlag = Annotated[
-    bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
-]
 WATCH_S = 5.0
-ListOption = Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)]
 
 
 def study(
-    files: StudiesArgument,
-    best: ListOption = 5,
-    export: ExportOption = None,
+    files: Annotated[list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")],
+    best: Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)] = 5,
+    export: Annotated[
+        Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
+    ] = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
-    watch: WatchFlag = False,
+    watch: Annotated[
+        bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
+    ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""
@@ -64,7 +58,7 @@ def study(
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
-        from jumpcad.search.phases import METHODS
+        from jumpcad.search.methods import METHODS
 
         (summary,) = summaries
         method = summary["identity"]["method"]
@@ -76,7 +70,7 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.phases import SEARCH_PHASES
+    from jumpcad.search.methods import SEARCH_PHASES
     from jumpcad.search.study.database import is_written
     from jumpcad.search.study.objective import described_objective
     from jumpcad.search.study.store import StudyStore
@@ -109,23 +103,18 @@ def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
     top = feasible_trials(proposed)
     numbers = trial_numbers(trials)
     return {
-        "study": str(file),
-        "identity": identity,
-        "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])),
-        "ended": store.recall(ENDED),
-        "evaluations": len(proposed),
-        "other_evaluations": len(trials) - len(proposed),
-        "refused": count_rejections(proposed),
-        "evaluation_time_s": sum(trial.duration_s for trial in trials),
+        "study": str(file), "identity": identity,
+        "planned": sum(stage["evaluations"] for stage in store.recall("stages", [])), "ended": store.recall(ENDED),
+        "evaluations": len(proposed), "other_evaluations": len(trials) - len(proposed),
+        "refused": count_rejections(proposed), "evaluation_time_s": sum(trial.duration_s for trial in trials),
         "best": top[0].to_dict() if top else None,
         "top": [{"trial": numbers[trial.position], **trial.to_dict()} for trial in top[:best]],
         "quarantined": [trial.to_dict() for trial in trials if trial.evaluation.verdict == "quarantined"],
         "notes": store.notes(),
-    }
+    }  # fmt: skip
 
 
 def _done(designs: int, planned: int) -> str:
-    """Return how far a search is."""
     return f"{designs} of {counted(planned, 'design')}" if planned else counted(designs, "design")
 
 

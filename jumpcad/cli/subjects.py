@@ -33,6 +33,10 @@ DesignArgument = Annotated[
         help="A template's name, a design file, a bundle.", metavar="DESIGN|BUNDLE", autocompletion=completion("robots")
     ),
 ]
+OwnDesignArgument = Annotated[
+    str,
+    typer.Argument(help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")),
+]
 SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
 RowOption = Annotated[int | None, typer.Option("--jumps", help="Show so many jumps in a row (MuJoCo).", min=1, max=20)]
 WorkshopOption = Annotated[

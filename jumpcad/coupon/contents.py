@@ -25,7 +25,7 @@ from jumpcad.coupon.pieces import (
 )
 from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.files.rendering import fill, render
+from jumpcad.files.templates import fill, render
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import MassLine
 from jumpcad.printing.layer_mass import mass_properties

@@ -16,7 +16,7 @@ from jumpcad.collision.hulls import Capsule, body_hulls, cage_capsules
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
 from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
-from jumpcad.files.rendering import fill, render
+from jumpcad.files.templates import fill, render
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot.robot import Robot

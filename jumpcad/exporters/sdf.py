@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from jumpcad.collision.hulls import cage_capsules
 from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.mechanism.model import Joint, Mechanism
 from jumpcad.mechanism.planar import leg_inertia_kg_m2
 from jumpcad.mechanism.poses import body_poses

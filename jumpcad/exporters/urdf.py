@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.settings import Settings, coefficients

@@ -36,18 +36,8 @@ def complaints(
 ) -> list[str]:
     """Return one clause per wrong key, `file:line: key = value: what is wrong`, for the first ten of them.
 
-    Parameters
-    ----------
-    error
-        The validation's error.
-    model
-        The validated model.
-    source
-        The file of the values, if any.
-    text
-        The TOML text of the file, in which the lines of the keys are looked up.
-    origins
-        All files of the values, if there are several: the first that has a wrong key is named for it.
+    Lines are looked up in the TOML text of the values' file `source`. Where there are several files, in `origins`, the
+    first that has a wrong key is named for it.
     """
     items = error.errors(include_url=False)
     files = origins or [Origin(source, text, {})]

@@ -133,10 +133,7 @@ def real_path(path: str | Path) -> Path:
 def require_apart(outputs: Mapping[str, Path | None], inputs: Mapping[str, str | Path | None]) -> None:
     """Require that no output is another output or an input, or below one, also through links.
 
-    Parameters
-    ----------
-    outputs, inputs
-        Paths by their options; None if not given. Inputs that are templates or bundles do not count.
+    Both are paths by their options, None if not given. Inputs that are templates or bundles do not count.
     """
     there = {name: path for name, path in outputs.items() if path is not None}
     files = {name: path for name, path in inputs.items() if path is not None and not os.path.isdir(path)}
@@ -203,15 +200,7 @@ def require_free(path: Path, force: bool = False) -> None:
 
 
 def sealed(text: str, comment: str = "# {}") -> str:
-    """Return text with a seal as its last line, by which `require_free` recognises unchanged files.
-
-    Parameters
-    ----------
-    text
-        Ends with a line break.
-    comment
-        The format of a comment in the file.
-    """
+    """Return text, which ends with a line break, with a seal as its last line: `require_free` knows unchanged files."""
     return f"{text}{comment.format(SEAL + sha256(text.encode()))}\n"
 
 

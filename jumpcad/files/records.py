@@ -46,7 +46,9 @@ class Record(TomlTable):
         try:
             super().__init__(**values)
             if wrong := list(self.contradictions()):
-                raise ValidationError.from_exception_data(type(self).__name__, [_line_error(*item) for item in wrong])
+                told = [InitErrorDetails(type=PydanticCustomError("value_error", reason), loc=location, input=value)
+                        for location, value, reason in wrong]  # fmt: skip
+                raise ValidationError.from_exception_data(type(self).__name__, told)
         except ValidationError as error:
             raise JumpcadError("; ".join(complaints(error, type(self)))) from error
 
@@ -60,7 +62,6 @@ class Record(TomlTable):
 
     @classmethod
     def from_toml(cls, path: Path) -> Self:
-        """Read a record from a TOML file."""
         data, text = read_toml(path)
         return cls.from_data(data, source=str(path), text=text)
 
@@ -73,10 +74,6 @@ class Record(TomlTable):
             if isinstance(error.__cause__, ValidationError):
                 raise JumpcadError("; ".join(complaints(error.__cause__, cls, source, text, origins))) from None
             raise
-
-
-def _line_error(location: tuple[str, ...], value: Any, reason: str) -> InitErrorDetails:
-    return InitErrorDetails(type=PydanticCustomError("value_error", reason), loc=location, input=value)
 
 
 def control_character(text: str) -> str:

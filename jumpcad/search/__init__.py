@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from jumpcad.search.fronts import energy_j as energy_j
     from jumpcad.search.fronts import front as front
     from jumpcad.search.fronts import hypervolume as hypervolume
+    from jumpcad.search.methods import METHODS as METHODS
     from jumpcad.search.models import MODELS as MODELS
     from jumpcad.search.models import CapsuleModel as CapsuleModel
     from jumpcad.search.models import PrintedModel as PrintedModel
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from jumpcad.search.models import robot_model as robot_model
     from jumpcad.search.optimization import optimize as optimize
     from jumpcad.search.parameter import SearchParameter as SearchParameter
-    from jumpcad.search.phases import METHODS as METHODS
     from jumpcad.search.report import plots as plots
     from jumpcad.search.report.figures import save_figure as save_figure
     from jumpcad.search.report.page import plot_study as plot_study
@@ -56,7 +56,7 @@ else:
         "jumpcad.search.models": "MODELS CapsuleModel PrintedModel PublishedModel RobotModel robot_model",
         "jumpcad.search.optimization": "optimize",
         "jumpcad.search.parameter": "SearchParameter",
-        "jumpcad.search.phases": "METHODS",
+        "jumpcad.search.methods": "METHODS",
         "jumpcad.search.robust_pick": "ActiveBound Candidate",
         "jumpcad.search.report": "plots",
         "jumpcad.search.report.figures": "save_figure",

@@ -45,27 +45,18 @@ def energies_j(values: Array) -> Array:
 class Cost:
     """What a front weighs the score against.
 
-    Parameters
-    ----------
-    figure
-        Its name, meaning, unit, and the figure of a jump.
-    reference, worst
-        Of the hypervolume's reference point, and what a rejected design counts as; both as `of` gives them.
-    less_is_better
-        False where a front seeks more of both.
-    of_design
-        Where it is a closed form of the design.
+    `reference` is that of the hypervolume's reference point, `worst` what a rejected design counts as; both as `of`
+    gives them.
     """
 
     figure: Objective
     reference: float
     worst: float
-    less_is_better: bool = True
-    of_design: Callable[[Design], float] | None = None
+    less_is_better: bool = True  # else a front seeks more of both
+    of_design: Callable[[Design], float] | None = None  # where it is a closed form of the design
 
     @property
     def name(self) -> str:
-        """What it is called in a request."""
         return self.figure.name
 
     def of(self, trial: Trial) -> float:

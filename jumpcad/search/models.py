@@ -54,12 +54,7 @@ LENGTH_MM = 0.2
 class RobotModel:
     """A picklable, pure function from design to evaluation: geometric checks, then what the class of a robot does.
 
-    Parameters
-    ----------
-    workshop, settings, engine
-        Where a printed robot is built, and how robots are simulated; the default ones if None.
-    requirements
-        What figures and limits must keep; those of the jump hold on slippery and on rough floors.
+    Workshop and settings are the default ones if None. Required figures of the jump hold on slippery and rough floors.
     """
 
     name: ClassVar[str]
@@ -118,7 +113,6 @@ class RobotModel:
         return replace(self, requirements=found)
 
     def requires(self, name: str) -> bool:
-        """Whether a figure is required."""
         return any(one.name == name for one in self.requirements)
 
     def required(self, found: Evaluation, on_floors: Iterable[Mapping[str, float]] = ()) -> Evaluation:
@@ -135,7 +129,7 @@ class RobotModel:
 
         if not any(one.name in JUMP_FIGURES for one in self.requirements):
             return []
-        return [_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
+        return [plain_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
 
     def admits(self, design: Design) -> bool:
         """Whether the feasibility checks that need neither solids nor simulation accept a design (microseconds)."""
@@ -201,26 +195,16 @@ class CapsuleModel(RobotModel):
         from jumpcad.simulation import simulate
 
         jump = simulate(capsule_robot(design), self.settings, self.engine)
-        return self.required(Evaluation(jump.verdict, _figures(jump), tuple(jump.findings)))
+        return self.required(Evaluation(jump.verdict, plain_figures(jump), tuple(jump.findings)))
 
 
 @dataclass(frozen=True, repr=False)
 class PrintedModel(RobotModel):
-    """A robot that is built, simulated and checked in a workshop.
+    """A robot that is built, simulated and checked in a workshop."""
 
-    Parameters
-    ----------
-    stand_in
-        Whether the evaluation has the figures from which other robots are estimated.
-    perturbation
-        What is made otherwise than designed, by the keys of `tolerances`.
-    scored
-        Figures of `COSTLY` that the objective needs.
-    """
-
-    stand_in: bool = False
-    scored: tuple[str, ...] = ()
-    perturbation: Mapping[str, Value] = field(default_factory=dict)
+    stand_in: bool = False  # the evaluation has the figures from which other robots are estimated
+    scored: tuple[str, ...] = ()  # figures of `COSTLY` that the objective needs
+    perturbation: Mapping[str, Value] = field(default_factory=dict)  # made otherwise than designed, by keys of `MADE`
     name = "printed"
     figure_names = tuple(FIGURES)
     default_objective = "body_lengths"
@@ -244,24 +228,23 @@ class PrintedModel(RobotModel):
         from jumpcad.evaluation import evaluate_made
 
         shop, made = self.workshop or load_workshop(), partial(perturbed, values=self.perturbation)
+        settings = self.settings or Settings()
         result = evaluate_made(design, shop, self.settings, self.engine, made)
         robot = result.robot
         findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = _figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
+        figures = plain_figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
         asked = self.asked
         if RIGHTS_ITSELF in asked:
             figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
         if RESTS in asked:
             from jumpcad.landing.landing import rest_distance_m
 
-            resting, settings = perturbed(robot, self.settings or Settings(), self.perturbation)
-            figures[RESTS] = rest_distance_m(resting, settings) if result.verdict == "jump" else 0.0
-        figures |= self.robust(robot, self.settings or Settings())
-        others: list[dict[str, float]] = []
-        if not self.perturbation:  # of what is made otherwise the floor is one
-            others = self.on_floors(robot, self.settings or Settings(), self.estimate_engine)
+            figures[RESTS] = rest_distance_m(*made(robot, settings)) if result.verdict == "jump" else 0.0
+        figures |= self.robust(robot, settings)
+        # of what is made otherwise the floor is one
+        others = [] if self.perturbation else self.on_floors(robot, settings, self.estimate_engine)
         return self.required(Evaluation(result.verdict, figures, findings), others)
 
     @property
@@ -293,7 +276,6 @@ class PrintedModel(RobotModel):
 
     @property
     def limit_names(self) -> Sequence[str]:
-        """Names of the limits that every evaluation checks."""
         from jumpcad.checks import CHECKS
 
         return [name for check in CHECKS if check.cheap for name in check.basis]
@@ -329,7 +311,7 @@ class PrintedModel(RobotModel):
         if jump.verdict != "jump":
             return -math.inf
         size = quick_size_m(design)
-        figures = _figures(jump)
+        figures = plain_figures(jump)
         figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
         try:
             return objective.score(Evaluation("jump", figures)) or 0.0
@@ -351,29 +333,18 @@ class PrintedModel(RobotModel):
         return settings.model_copy(update={"dt_s": max(settings.dt_s, ESTIMATE_STEP_S), "push_off_steps": 0})
 
     def describe(self) -> dict[str, Any]:
-        """Return all that decides an evaluation, as plain data."""
         more = {"stand_in": self.stand_in, "scored": list(self.scored)}
         return super().describe() | {name: value for name, value in more.items() if value}
 
 
 @check_arguments
 def robot_model(
-    name: str = "printed",
-    workshop: Workshop | str | Path | None = None,
-    settings: Settings | str | Path | None = None,
-    engine: str | None = None,
-) -> RobotModel:
-    """Return the model of a name; workshop and settings by name, as files, or loaded.
+    name: str = "printed", workshop: Workshop | str | Path | None = None,
+    settings: Settings | str | Path | None = None, engine: str | None = None,
+) -> RobotModel:  # fmt: skip
+    """Return the model of a name of `MODELS`; workshop and settings by name, as files, or loaded.
 
-    Parameters
-    ----------
-    name
-        One of `MODELS`.
-    workshop
-        Where `printed` is built, the default if None.
-    settings, engine
-        How `printed` and `capsule` are simulated: the default settings, and the first of PyBullet and MuJoCo that is
-        installed, if None.
+    If None, the default workshop and settings, and the first of PyBullet and MuJoCo that is installed.
     """
     if engine is not None:
         require_engine(engine)
@@ -388,17 +359,13 @@ def robot_model(
         raise JumpcadError(f"{name!r} is not one of the models {', '.join(MODELS)}{did_you_mean(name, MODELS)}")
     if name == "published":
         return PublishedModel()
-    how = (
-        settings.revalidated()
-        if isinstance(settings, Settings)
-        else load_settings("default" if settings is None else settings)
-    )
+    settings = load_settings("default") if settings is None else settings
+    how = settings.revalidated() if isinstance(settings, Settings) else load_settings(settings)
     if name == "capsule":
         return CapsuleModel(settings=how, engine=engine or default_engine())
     shop = workshop if isinstance(workshop, Workshop) else load_workshop(DEFAULT if workshop is None else workshop)
     return PrintedModel(workshop=shop, settings=how, engine=engine or default_engine())
 
 
-def _figures(jump: Any) -> dict[str, float]:
-    """Return the plain figures of a jump."""
+def plain_figures(jump: Any) -> dict[str, float]:
     return {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}

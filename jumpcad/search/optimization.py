@@ -6,8 +6,8 @@ from typing import Any
 
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design, load_design
+from jumpcad.search.methods import DEFAULT, EVALUATIONS, PAPER, UNTIL_PERCENT
 from jumpcad.search.models import robot_model
-from jumpcad.search.phases import DEFAULT, EVALUATIONS, PAPER, UNTIL_PERCENT
 from jumpcad.search.space import Space
 from jumpcad.search.study.database import require_study
 from jumpcad.search.study.pool import open_pool

@@ -57,12 +57,10 @@ class SearchParameter:
 
     @property
     def free(self) -> bool:
-        """Whether the search may move it."""
         return self.lower < self.upper
 
     @property
     def width(self) -> float:
-        """Width of its range."""
         return self.upper - self.lower
 
     @property
@@ -142,9 +140,7 @@ def physical_limits(name: str) -> tuple[float, float]:
 
     For a value of the workshop they are infinite: the workshop checks its values itself.
     """
-    if name not in PARAMETERS:
-        return -math.inf, math.inf
-    return limits_of(name)
+    return limits_of(name) if name in PARAMETERS else (-math.inf, math.inf)
 
 
 def read_changes(kind: Kind, texts: Iterable[str]) -> dict[str, tuple[Any, ...]]:

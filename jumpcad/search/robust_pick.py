@@ -68,25 +68,16 @@ class Candidate:
         return min(self.parameters_score, self.print_score)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
         return {
-            "score": self.trial.score,
-            "robust_score": self.robust_score,
-            "parameters_score": self.parameters_score,
-            "print_score": self.print_score,
-            "refusals": self.rejections,
-            "neighbours": self.neighbours,
-            "fails": self.fails,
-            "design": self.trial.design.model_dump(),
+            "score": self.trial.score, "robust_score": self.robust_score, "parameters_score": self.parameters_score,
+            "print_score": self.print_score, "refusals": self.rejections, "neighbours": self.neighbours,
+            "fails": self.fails, "design": self.trial.design.model_dump(),
             **({"workshop": dict(self.trial.workshop)} if self.trial.workshop else {}),
-        }
+        }  # fmt: skip
 
     def __repr__(self) -> str:
-        rejected = sum(self.rejections.values())
-        return (
-            f"<Candidate: score {self.trial.score:.4g}, neighbours {self.robust_score:.4g}, "
-            f"{rejected} of {self.neighbours} rejected>"
-        )
+        rejected = f"{sum(self.rejections.values())} of {self.neighbours} rejected"
+        return f"<Candidate: score {self.trial.score:.4g}, neighbours {self.robust_score:.4g}, {rejected}>"
 
 
 @dataclass(frozen=True)
@@ -127,26 +118,12 @@ def plan_rounds(evaluations: int) -> list[tuple[int, int]]:
 
 
 def rank_candidates(
-    evaluator: Evaluator,
-    trials: Sequence[Trial],
-    seed: int,
-    evaluations: int,
-    run: int = 0,
+    evaluator: Evaluator, trials: Sequence[Trial], seed: int, evaluations: int, run: int = 0
 ) -> list[Candidate]:
     """Evaluate neighbours of the best of some trials, and return these, those that got farthest and do not fail first.
 
-    Successive halving: the more robust half of the candidates gets more neighbours, until one is left.
-
-    Parameters
-    ----------
-    evaluator, trials
-        The candidates are the best of the trials.
-    seed
-        Random seed of the neighbours.
-    evaluations
-        At most so many designs are evaluated.
-    run
-        Number of this pick in the study.
+    Successive halving: the more robust half of the candidates gets more neighbours, until one is left. `run` is the
+    number of this pick in the study, `evaluations` the most that it takes.
     """
     rounds = plan_rounds(evaluations)
     field = [_Examined(index, one) for index, one in enumerate(best_apart(evaluator.space, trials, rounds[0][0]))]
@@ -172,8 +149,7 @@ class _Examined:
     """A candidate and what is known of its neighbours so far."""
 
     def __init__(self, index: int, trial: Trial) -> None:
-        self.index = index
-        self.trial = trial
+        self.index, self.trial = index, trial
         self.scores: dict[str, list[float]] = {"parameters": [], "print": []}
         self.rejections: Counter[str] = Counter()
         self.rejected_score = 0.0
@@ -203,7 +179,6 @@ class _Examined:
         return [(kind, variant) for kind, variants in kinds.items() for variant in variants[start:end]]
 
     def candidate(self) -> Candidate:
-        """Return the result."""
         rejections = dict(sorted(self.rejections.items()))
         percentiles = self._tenth("parameters"), self._tenth("print")
         return Candidate(self.trial, *percentiles, rejections, self.examined, self.fails)

@@ -38,8 +38,6 @@ from jumpcad.workshop.varied import Value
 ROOM_UP_TO_RAD = math.radians(75.0)
 """Directions of the springs' pin up to which there mostly is room; judgement: in 60 robots of the default bounds the
 cam begins at 40 to 80°."""
-
-
 STUDY = "study"
 """What `--bound` takes for the bounds of the study."""
 
@@ -100,12 +98,9 @@ class Space:
         fixed, bounds, choices
             By name of a parameter, or by a key of the workshop such as `body.plate_mm`: its value, its lower and upper
             limit, its allowed values. Each is in at most one of them. Bounds that are `SEARCH_BOUNDS` are as `study`.
-        around
-            A design that gives the values of what is not free and the middle of `within_percent`.
-        only
-            Names of the parameters that stay free; all others are fixed at `around`.
-        within_percent
-            Narrow every range of a design to this percentage of its width on either side of `around`.
+        around, only, within_percent
+            A design; names of the parameters that stay free, the others fixed at it; the percentage of its width to
+            which every range of a design is narrowed on either side of it.
         workshop
             The workshop whose values may be varied; None for a robot that is made in none.
         study
@@ -133,8 +128,7 @@ class Space:
                 if name.startswith("cage."):
                     raise JumpcadError(f"{name}: the workshop has no cage: fix cage.rod too, cage.rod=glass-1.5")
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
-        parameters = []
-        lowest_deg = usual["rest_angle_deg"].lower
+        parameters, lowest_deg = [], usual["rest_angle_deg"].lower
         with_springs = _with_springs(workshop, lowest_deg) if workshop and "bought.spring" not in changed else {}
         for name, limits in usual.items():
             parameter = SearchParameter(name, limits.lower, limits.upper)
@@ -150,11 +144,7 @@ class Space:
     @classmethod
     @check_arguments
     def parse(
-        cls,
-        fix: Iterable[str] = (),
-        bound: Iterable[str] = (),
-        choose: Iterable[str] = (),
-        **others: Any,
+        cls, fix: Iterable[str] = (), bound: Iterable[str] = (), choose: Iterable[str] = (), **others: Any
     ) -> Self:
         """Return the usual space with changes ``NAME=VALUE``, ``NAME=LO:HI`` and ``NAME=a,b,c``; the rest as `make`.
 
@@ -177,7 +167,6 @@ class Space:
 
     @property
     def varies_workshop(self) -> bool:
-        """Whether a value of the workshop is free."""
         return any(parameter.free for parameter in self.of_workshop)
 
     @property
@@ -192,7 +181,6 @@ class Space:
 
     @property
     def dimension(self) -> int:
-        """Number of free parameters."""
         return len(self.free)
 
     @property
@@ -206,10 +194,8 @@ class Space:
 
     def to_variant(self, unit: Sequence[float] | Array) -> Variant:
         """Return the design and the workshop's values at a point (dimension,) of the unit cube."""
-        numbers = self.values(np.asarray(unit, dtype=float)[None])[0].tolist()
-        eight = len(PARAMETERS)
-        values = zip(self.of_workshop, numbers[eight:], strict=True)
-        workshop = {parameter.name: parameter.value(number) for parameter, number in values}
+        numbers, eight = self.values(np.asarray(unit, dtype=float)[None])[0].tolist(), len(PARAMETERS)
+        workshop = {one.name: one.value(number) for one, number in zip(self.of_workshop, numbers[eight:], strict=True)}
         return Variant(Design.from_vector(numbers[:eight]), workshop)
 
     def values(self, units: Array) -> Array:
@@ -218,12 +204,8 @@ class Space:
         The first eight are a design's vector, the others the workshop's; names are given by their indices.
         """
         columns = iter(units.T)
-        return np.column_stack(
-            [
-                parameter.at(next(columns)) if parameter.free else np.full(len(units), parameter.lower)
-                for parameter in self.parameters
-            ]
-        )
+        fixed = np.ones(len(units))
+        return np.column_stack([one.at(next(columns)) if one.free else one.lower * fixed for one in self.parameters])
 
     def to_unit(self, one: Design | Variant) -> Array:
         """Return the point (dimension,) of a design or variant; outside of the unit cube if it is out of bounds."""

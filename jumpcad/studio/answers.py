@@ -17,7 +17,7 @@ from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files import read_toml, templates_folder
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot

@@ -13,7 +13,6 @@ from jumpcad.bundle.viewer import parts_facts
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import is_sealed, sealed, write_files
-from jumpcad.robot.robot import Robot
 from jumpcad.search.study.result import workshop_file
 from jumpcad.studio.answers import Playback, Printed, capsule_answer, playback, printed_answer
 from jumpcad.studio.player import Player, slider_ends, slider_step, when_changed
@@ -27,20 +26,10 @@ CLICK = "Click on a part for its mass, material and file."
 
 
 class Studio:
-    """A studio that serves one design, or the points of a study, until it is stopped.
+    """A studio that serves one design, or the points of a study, on a viser server until it is stopped.
 
-    Parameters
-    ----------
-    design, name
-        The first design; saved files and bundles are called after `name`.
-    workshops
-        Names or files of workshops to choose from; the first is used at the start, unless there are points.
-    server
-        A viser server.
-    folder
-        Where designs are saved and bundles built.
-    points, number
-        The points of a study, and the number of the one that `design` is.
+    Saved files and bundles are called after `name`, in a folder. Of the workshops to choose from, names or files, the
+    first is used at the start, unless there are points; `design` is that with the `number`.
     """
 
     def __init__(
@@ -77,7 +66,6 @@ class Studio:
 
     @property
     def design(self) -> Design:
-        """The design of the sliders."""
         return Design(**{key: slider.value for key, slider in self.sliders.items()})
 
     def _make_panel(self, workshops: list[str]) -> None:
@@ -107,18 +95,14 @@ class Studio:
 
     def _make_choice(self, points: Points) -> None:
         """Make a list of the best trials and the front, and a field for the number of any trial."""
-        gui, last = self.server.gui, len(points.trials)
+        gui, last, listed = self.server.gui, len(points.trials), points.listed
         self.point = gui.add_markdown(points.to_text(self.number))
-        texts = (BY_NUMBER, *points.listed)
+        texts = (BY_NUMBER, *listed)
         hint = "the best designs, then the front"
         self.best = gui.add_dropdown("point", texts, initial_value=points.listed_as(self.number, BY_NUMBER), hint=hint)
         self.trial = gui.add_number("trial", self.number, min=1, max=last, step=1, hint=f"any trial, 1 to {last}")
-        when_changed(self.best, lambda: self._run_action(self._open_listed))
+        when_changed(self.best, lambda: self._run_action(lambda: self.open(listed.get(self.best.value, self.number))))
         when_changed(self.trial, lambda: self._run_action(lambda: self.open(int(self.trial.value))))
-
-    def _open_listed(self) -> str:
-        assert self.points is not None
-        return self.open(self.points.listed.get(self.best.value, self.number))
 
     def open(self, number: int) -> str:
         """Open the point of a study with a number: its design and its workshop."""
@@ -181,14 +165,10 @@ class Studio:
                 self.stage.show(found.robot, found.wrong_parts)
         return found
 
-    def _robot(self) -> Robot:
-        """Return the robot that is shown; raise `JumpcadError` if there is none."""
+    def _motion(self) -> Playback:
         if self.shown is None or self.shown.robot is None:
             raise JumpcadError("there is no robot: the design cannot be built")
-        return self.shown.robot
-
-    def _motion(self) -> Playback:
-        return playback(self._robot())
+        return playback(self.shown.robot)
 
     def _say_part(self, name: str) -> None:
         """Show what a part of the robot is."""

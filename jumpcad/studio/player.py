@@ -23,15 +23,7 @@ WIDER = 0.5
 
 
 class Player:
-    """Controls of the motion of the robot that is shown; the motion is computed when it is first asked for.
-
-    Parameters
-    ----------
-    server, stage
-        The viser server, and the scene that is moved.
-    make
-        Returns the motion of the robot that is shown, or raises `JumpcadError`.
-    """
+    """Controls of the motion of the robot that a stage shows, which `make` returns when it is first asked for."""
 
     def __init__(self, server: Any, stage: StudioStage, make: Callable[[], Playback]) -> None:
         self.server, self.stage, self._make = server, stage, make

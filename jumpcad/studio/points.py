@@ -45,16 +45,11 @@ class Points:
     def listed(self) -> dict[str, int]:
         """Numbers of the best trials and of the front, by what a list says of them; the best one is the first."""
         proposed = searched(self.trials)
-        best = {
-            f"best {place}: {self._listed(trial)}": self.number(trial)
-            for place, trial in enumerate(feasible_trials(proposed)[:BEST], start=1)
-        }
-        return best | {
-            f"front, {self._cost.shown(self._cost.of(trial)):.4g} {self._cost.figure.unit}: {self._listed(trial)}": (
-                self.number(trial)
-            )
-            for trial in front(proposed, self._cost)
-        }
+        cost, unit = self._cost, self._cost.figure.unit
+        words = [(f"best {place}", trial) for place, trial in enumerate(feasible_trials(proposed)[:BEST], start=1)]
+        words += [(f"front, {cost.shown(cost.of(one)):.4g} {unit}", one) for one in front(proposed, cost)]
+        numbers = [(word, trial, self._numbers[trial.position]) for word, trial in words]
+        return {f"{word}: {self._score(trial)} (trial {number})": number for word, trial, number in numbers}
 
     def listed_as(self, number: int, otherwise: str) -> str:
         """Return what the list first says of a trial."""
@@ -62,17 +57,11 @@ class Points:
 
     @property
     def best(self) -> int:
-        """The number of the best trial."""
         if not self.listed:
             raise JumpcadError(f"{self.file}: no design of this study jumps; --trial N opens one that does not")
         return next(iter(self.listed.values()))
 
-    def number(self, trial: Trial) -> int:
-        """Return the number of a trial."""
-        return self._numbers[trial.position]
-
     def trial(self, number: int) -> Trial:
-        """Return the trial of a number."""
         if not 1 <= number <= len(self.trials):
             raise JumpcadError(f"{self.file}: has no trial {number}: its trials are 1 to {len(self.trials)}")
         return self.trials[number - 1]
@@ -99,6 +88,3 @@ class Points:
 
     def _score(self, trial: Trial) -> str:
         return f"{trial.score:.4g} {self._unit}"
-
-    def _listed(self, trial: Trial) -> str:
-        return f"{self._score(trial)} (trial {self.number(trial)})"

@@ -51,7 +51,6 @@ class OwnServer(viser.ViserServer):
 
     @property
     def address(self) -> str:
-        """The address of the page."""
         return f"http://127.0.0.1:{self.get_port()}/{self._token}/"
 
     def _checked(self, answer: Process) -> Process:

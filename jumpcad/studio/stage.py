@@ -31,12 +31,7 @@ PATH_COLOUR, PATH_MM = (0.82, 0.29, 0.36), 1.0
 class StudioStage:
     """What a viser server shows; names of nodes are `/robot/BODY/PART`, `/ghost/BODY/PART` and `/path`.
 
-    Parameters
-    ----------
-    server
-        The viser server.
-    clicked
-        Called with the name of a part of the robot that is clicked, as in `jumpcad.scene.visuals`.
+    `clicked` is called with the name of a part of the robot, as in `jumpcad.scene.visuals`.
     """
 
     def __init__(self, server: Any, clicked: Callable[[str], None] = lambda _: None) -> None:
@@ -86,7 +81,7 @@ class StudioStage:
         with self.lock:
             for name, (_, handle) in self.meshes.items():
                 if name.startswith("/robot/"):
-                    _put_on(handle, tuple(handle.color), SEEN_THROUGH)
+                    _give(handle, opacity=SEEN_THROUGH)
 
     def show_path(self, com_m: Array | None) -> None:
         """Show the path (n, 3) of the centre of mass (m); None removes it."""
@@ -107,7 +102,8 @@ class StudioStage:
         for part, angle_rad in moment.turned_rad.items():
             handle, T_body_mesh, (x, z) = self._turning[part]
             about = chained(pose_about_y(angle_rad, (x, z)), pose_about_y(0.0, (-x, -z)))
-            _put_at(handle, *_placed(chained(about, T_body_mesh)))
+            place, turn = _placed(chained(about, T_body_mesh))
+            _give(handle, position=place, wxyz=turn)
 
     def pose(self, poses: Mapping[str, Array], tree: str = "robot") -> None:
         """Put the bodies' frames at poses (4, 4) in the world (m); `tree` is `robot` or `ghost`."""
@@ -120,7 +116,7 @@ class StudioStage:
         x, y, z, qx, qy, qz, qw = (float(value) for value in seven)
         if frame not in self.frames:
             self.frames[frame] = self.server.scene.add_frame(frame, show_axes=False)
-        _put_at(self.frames[frame], (x, y, z), (qw, qx, qy, qz))
+        _give(self.frames[frame], position=(x, y, z), wxyz=(qw, qx, qy, qz))
 
     def _put(self, tree: str, things: tuple[Visual, ...], wrong: frozenset[str] = frozenset()) -> int:
         """Show parts below a tree, and remove the tree's others; return how many meshes were sent.
@@ -137,8 +133,7 @@ class StudioStage:
             key = _shape(one)
             if name in self.meshes and self.meshes[name][0] == key:
                 handle = self.meshes[name][1]
-                _put_at(handle, place, turn)
-                _put_on(handle, colour, opacity)
+                _give(handle, position=place, wxyz=turn, color=colour, opacity=opacity)
                 continue
             vertices_mm, triangles = seen(one)
             handle = self.server.scene.add_mesh_simple(
@@ -173,20 +168,12 @@ def _placed(pose: Array) -> tuple[tuple[float, ...], tuple[float, ...]]:
     return tuple(pose[:3, 3].tolist()), (w, x, y, z)
 
 
-def _put_at(handle: Any, place: tuple[float, ...], turn: tuple[float, ...]) -> None:
-    """Put a node at a position (m) and quaternion (w, x, y, z); each that changes is a message to every page."""
-    if tuple(handle.position) != place:
-        handle.position = place
-    if tuple(handle.wxyz) != turn:
-        handle.wxyz = turn
-
-
-def _put_on(handle: Any, colour: tuple[int, ...], opacity: float | None) -> None:
-    """Give a mesh a colour and an opacity; each that changes is a message to every page."""
-    if tuple(handle.color) != colour:
-        handle.color = colour
-    if handle.opacity != opacity:
-        handle.opacity = opacity
+def _give(handle: Any, **values: Any) -> None:
+    """Give a node position (m), quaternion (w, x, y, z), colour or opacity; each change is a message to every page."""
+    for name, value in values.items():
+        held = getattr(handle, name)
+        if (tuple(held) if isinstance(value, tuple) else held) != value:
+            setattr(handle, name, value)
 
 
 def _shape(one: Visual) -> object:

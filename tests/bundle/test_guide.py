@@ -29,7 +29,7 @@ from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.renders import named_views
 from jumpcad.design import Design
 from jumpcad.files import template_names, templates_folder
-from jumpcad.files.rendering import environment, render
+from jumpcad.files.templates import environment, render
 from jumpcad.findings import errors, limit
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot.robot import Robot

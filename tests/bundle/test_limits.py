@@ -5,7 +5,7 @@ import re
 import pytest
 
 from jumpcad.bundle.limits import limit_values, ordered, tightest, violation
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.findings import Finding, at_least, at_most, bare, limit
 
 

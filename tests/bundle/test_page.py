@@ -22,7 +22,7 @@ from jumpcad.calibration.measurements import load_measurements
 from jumpcad.design import load_design
 from jumpcad.dimensions import unit_of_key
 from jumpcad.files import template_names
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump, Settings, simulate, uncertain_jump

@@ -235,7 +235,4 @@ def test_a_bundle_is_not_printed_elsewhere(run: Run, bundle: Path, tmp_path: Pat
         assert code == 2
         assert f"{' '.join(option)}: " in err
     assert run("build", "kenan-2.0", "--material", "PLA", "-o", tmp_path / "pla", "--no-pictures")[0] == 0
-    assert {path.name for path in (tmp_path / "pla" / "print").glob("*.3mf")} == {
-        "plate-1-PLA.3mf",
-        "plate-2-PLA.3mf",
-    }
+    assert {path.name for path in (tmp_path / "pla" / "print").glob("*.3mf")} == {"plate-1-PLA.3mf", "plate-2-PLA.3mf"}

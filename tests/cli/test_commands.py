@@ -26,17 +26,12 @@ HEAVY = ("numpy", "scipy", "pybullet", "mujoco", "trimesh", "manifold3d", "sklea
 @each(
     "arguments",
     [
-        ["fly"],
-        ["new"],
-        ["new", "robot.toml", "--form", "kenan-2.0"],
-        ["new", "robot.txt"],
-        ["new", "no/folder/robot.toml"],
-        ["new", "x" * 300 + ".toml"],
-        ["new", "robot.toml", "--from", "kenan-3.0"],
+        ["fly"], ["new"], ["new", "robot.toml", "--form", "kenan-2.0"], ["new", "robot.txt"],
+        ["new", "no/folder/robot.toml"], ["new", "x" * 300 + ".toml"], ["new", "robot.toml", "--from", "kenan-3.0"],
         ["new", "robot.toml", "--from", "missing.toml", "--json"],
         ["simulate", "kenan-2.0", "--published", "--engine", "mujoco"],
     ],
-)
+)  # fmt: skip
 def test_wrong_request_is_one_line_and_exit_code_2(run: Run, tmp_path: Path, arguments: list[str]) -> None:
     code, out, err = run(*arguments)
     assert code == 2

@@ -11,7 +11,7 @@ from jumpcad.bundle.export import export_coupon
 from jumpcad.coupon.contents import GROUPS, coupon_values
 from jumpcad.coupon.pieces import coupon_holes
 from jumpcad.coupon.readings import Readings, measured_workshop
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.workshop import load_workshop
 
 

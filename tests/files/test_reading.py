@@ -11,12 +11,7 @@ import pytest
 from support.each import each
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files import (
-    read_json,
-    read_toml,
-    reading,
-    to_toml,
-)
+from jumpcad.files import read_json, read_toml, reading, to_toml
 from jumpcad.files.reading import BOM, to_csv
 
 

@@ -5,11 +5,7 @@ from pathlib import Path
 import pytest
 
 from jumpcad.errors import JumpcadError
-from jumpcad.files import (
-    find_template,
-    template_names,
-    templates_folder,
-)
+from jumpcad.files import find_template, template_names, templates_folder
 
 
 def test_templates_are_found_by_name_and_files_by_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,14 +5,7 @@ import pytest
 from support.hills import FIXED, SMALL, TOP
 
 from jumpcad.errors import JumpcadError
-from jumpcad.search.explore import (
-    components,
-    elite,
-    feasibility_map,
-    importance,
-    sample,
-    sweep,
-)
+from jumpcad.search.explore import components, elite, feasibility_map, importance, sample, sweep
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial

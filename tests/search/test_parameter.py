@@ -6,13 +6,7 @@ import pytest
 
 from jumpcad.design import PARAMETERS
 from jumpcad.errors import JumpcadError
-from jumpcad.search.parameter import (
-    Kind,
-    SearchParameter,
-    changed_parameter,
-    physical_limits,
-    read_changes,
-)
+from jumpcad.search.parameter import Kind, SearchParameter, changed_parameter, physical_limits, read_changes
 from jumpcad.search.space import Space
 from jumpcad.workshop import load_workshop
 

@@ -137,22 +137,18 @@ def test_a_variant_of_other_values_of_the_workshop_is_not_in_the_space():
     ("options", "message"),
     [
         ({"fix": ["carrying_lnk_mm=100"]}, "did you mean carrying_link_mm"),
-        ({"fix": ["zzz=100"]}, "the parameters are carrying_link_mm"),
-        ({"fix": ["c_coef"]}, "NAME=VALUE"),
+        ({"fix": ["zzz=100"]}, "the parameters are carrying_link_mm"), ({"fix": ["c_coef"]}, "NAME=VALUE"),
         ({"fix": ["c_coef=one"]}, "'one' is not a number"),
         ({"fix": ["rest_angle_deg=95"]}, r"rest_angle_deg = 95 is outside 5…90"),
-        ({"fix": ["c_coef=nan"]}, "c_coef = nan is outside"),
-        ({"bound": ["c_coef=1.1:0.9"]}, "empty range"),
-        ({"bound": ["c_coef=1:1"]}, "empty range"),
-        ({"bound": ["c_coef=1"]}, "NAME=LO:HI"),
+        ({"fix": ["c_coef=nan"]}, "c_coef = nan is outside"), ({"bound": ["c_coef=1.1:0.9"]}, "empty range"),
+        ({"bound": ["c_coef=1:1"]}, "empty range"), ({"bound": ["c_coef=1"]}, "NAME=LO:HI"),
         ({"choose": ["c_coef=1,,2"]}, "'' is not a number"),
-        ({"fix": ["c_coef=1"], "bound": ["c_coef=0.9:1.1"]}, "given twice"),
-        ({"only": ["c_coef"]}, "around which"),
+        ({"fix": ["c_coef=1"], "bound": ["c_coef=0.9:1.1"]}, "given twice"), ({"only": ["c_coef"]}, "around which"),
         ({"within_percent": 10.0}, "around which"),
         ({"within_percent": 0.0, "around": load_design("best-bo")}, "outside 0…100"),
         ({"fix": [f"{name}={limits.lower}" for name, limits in SEARCH_BOUNDS.items()]}, "nothing is left to search"),
     ],
-)
+)  # fmt: skip
 def test_wrong_spaces_are_refused_in_one_line(options, message):
     with pytest.raises(JumpcadError, match=message) as caught:
         Space.parse(**options)

@@ -13,7 +13,7 @@ from jumpcad.bundle.drawings.lead_lines import Lead, leads_of, pads_of
 from jumpcad.dimensions import TRAY_MM
 from jumpcad.electronics.nets import Terminal
 from jumpcad.exporters.dxf import sheet
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.electronics.fittings import wire_hole_mm
 from jumpcad.robot.electronics.leads import OWN_LEGS, outer_way, plate_of
 from jumpcad.robot.layout import Layout

@@ -16,7 +16,7 @@ from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, loaded_arms, torque
 from jumpcad.drive import TorsionSpring
 from jumpcad.exporters.dxf import dxf_document
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import ORDERED
 from jumpcad.transforms import Array

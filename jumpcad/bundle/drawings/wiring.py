@@ -9,7 +9,7 @@ from typing import Any
 from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.electronics.nets import AT, Net, Terminal, Wiring
 from jumpcad.electronics.supply import Chosen
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.robot.electronics.leads import OWN_LEGS, has_own_legs, lead_lengths
 from jumpcad.robot.robot import Robot, decided_once
 

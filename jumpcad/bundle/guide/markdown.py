@@ -15,8 +15,7 @@ from markdown_it.token import Token
 from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.rendering import render
-from jumpcad.files.templates import templates_folder
+from jumpcad.files.templates import render, templates_folder
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import CHOOSE

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.process import one_thread
-from jumpcad.search.estimate.estimate import Estimate, Estimator
-from jumpcad.search.estimate.fitted_figures import MARK, of_layout
+from jumpcad.search.estimate.estimate import BUILT_FIGURE, Estimate, Estimator, of_layout
 from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
@@ -51,13 +50,7 @@ class Bounds:
 
 
 class Screen:
-    """Leaves out candidates of one search whose estimates are too bad.
-
-    Parameters
-    ----------
-    space, model, objective
-        Of the search: a printed robot, whose workshop does not vary.
-    """
+    """Leaves out candidates of one search whose estimates are too bad; its workshop does not vary."""
 
     def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
         self._space, self._model = space, model
@@ -66,7 +59,7 @@ class Screen:
 
     def learn(self, trials: Sequence[Trial]) -> None:
         """Learn the robots of the search so far, and what estimates of the nearest to the best miss."""
-        built = [one for one in trials if MARK in one.evaluation.metrics]
+        built = [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
         best = best_trial(built)
         if best is None:
             return

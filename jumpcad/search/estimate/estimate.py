@@ -6,29 +6,134 @@ the best, a dozen robots tell the score of others within a tenth, later within a
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Self
+
+import numpy as np
 
 from jumpcad.building import build
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings
-from jumpcad.process import Shared
+from jumpcad.process import MapOnCores
 from jumpcad.robot.robot import Robot
-from jumpcad.search.estimate.estimated_robot import EXTENTS, estimated_robot
-from jumpcad.search.estimate.fitted_figures import MARK, FittedFigures
-from jumpcad.search.models import PrintedModel
+from jumpcad.search.estimate.estimated_robot import EXTENTS, LAID, estimated_robot
+from jumpcad.search.models import PrintedModel, plain_figures
 from jumpcad.search.space import Space
-from jumpcad.search.study.objective import Evaluation, Objective
-from jumpcad.search.study.trial import Trial, best_trial
+from jumpcad.search.study.objective import EQUALS, Evaluation, Objective
+from jumpcad.search.study.trial import Trial, best_trial, typical_size
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.simulation import simulate
+from jumpcad.transforms import Array
 
+BUILT_FIGURE = "laid_coil_mm"
+"""A figure that only robots have that were built to be learned from."""
+FITTED = 300
+"""Most robots that figures are fitted to: the nearest to the best."""
+REACH = 0.25
+"""Distance from the best, in scales of the space, at which a robot counts half as much; judgement."""
+LEARNED, SLACK = 2, 0.2
+"""Robots that a limit has rejected, from which on its margins are fitted, and by how much a margin may be missed, in
+arcsinh of its typical size; judgement."""
+NO_LIMITS: Mapping[str, float] = MappingProxyType({})
+RIDGE = 1e-3
+FEW, FEW_MORE = 80, 10.0
+"""Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
 LEAST, GROWTH = 8, 1.3
 """Robots from which on figures are fitted; they are fitted anew when there are so many times more."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
+
+
+class FittedFigures:
+    """Coefficients of every figure that all robots have; of its logarithm where it is positive in all of them.
+
+    So masses stay positive. Weighted ridge regression about a point; see `of`. There are coefficients (features +
+    layout figures,) of logarithms of what is `positive` and of `others`, by name, and (layout figures, features) of the
+    layout's own figures. `sizes` are typical margins of the limits that rejected robots: their figures are
+    arcsinh(margin / size).
+    """
+
+    def __init__(
+        self, positive: Mapping[str, Array], others: Mapping[str, Array], layouts: Array, scale: Array | float = 1.0,
+        sizes: Mapping[str, float] = NO_LIMITS,
+    ) -> None:  # fmt: skip
+        self._scale, self._logarithms, self._layouts = scale, len(positive), layouts
+        self._names = [*positive, *others]
+        self._sizes = sizes
+        self._matrix = np.array([*positive.values(), *others.values()])
+
+    def margins(self, figures: Mapping[str, float]) -> tuple[dict[str, float], bool]:
+        """Return the margins of the limits that rejected robots, and whether all are likely kept."""
+        margins = {name: size * math.sinh(figures[name]) for name, size in self._sizes.items()}
+        return margins, all(figures[name] > -SLACK for name in margins)
+
+    @classmethod
+    def of(cls, space: Space, trials: Sequence[Trial], centre: Array) -> Self:
+        """Fit the figures of trials with a `BUILT_FIGURE`, the nearest to a point (d,) of the unit cube."""
+        units = np.array([space.to_unit(trial.variant) for trial in trials])
+        distance = (np.abs(units - centre) / space.scale).max(axis=1)
+        order = np.sort(np.argsort(distance, kind="stable")[:FITTED])
+        metrics = [trials[index].evaluation.metrics for index in order]
+        plain, weights = features(units[order], space.scale), 1.0 / (1.0 + (distance[order] / REACH) ** 2)
+        laid = np.array([of_layout(one) for one in metrics])
+        solver = _solver(np.hstack([plain, laid]), weights, units.shape[1])
+        positive, others, sizes = {}, {}, {}
+        for name in sorted(set.intersection(*map(set, metrics)) - LAID.keys()):
+            values = np.array([one[name] for one in metrics])
+            if values.min() > 0.0:
+                positive[name] = solver @ np.log(values)
+            else:
+                others[name] = solver @ values
+        evaluations = [trials[index].evaluation for index in order]
+        rejections = Counter(name for one in evaluations for name in one.missed)
+        for name in sorted(name for name, count in rejections.items() if count >= LEARNED and EQUALS not in name):
+            margins = np.array([one.margins.get(name, np.nan) for one in evaluations])
+            if np.isfinite(margins).all():
+                sizes[name] = typical_size(margins)
+                others[name] = solver @ np.arcsinh(margins / sizes[name])
+        return cls(positive, others, (_solver(plain, weights, units.shape[1]) @ laid).T, space.scale, sizes)
+
+    def predict(self, unit: Array, laid: Mapping[str, float] | None) -> dict[str, float]:
+        """Return the figures at a point (d,) of the unit cube, of a robot with these figures of its layout.
+
+        Without them, of a robot whose layout is about that of the robots beside it.
+        """
+        plain = features(unit[None], self._scale)[0]
+        layout = (self._layouts * plain).sum(axis=1) if laid is None else of_layout(laid)
+        values = (self._matrix * np.append(plain, layout)).sum(axis=1).tolist()
+        values[: self._logarithms] = map(math.exp, values[: self._logarithms])
+        return dict(zip(self._names, values, strict=True))
+
+
+def _solver(rows: Array, weights: Array, d: int) -> Array:
+    """Return the matrix (k, n) that takes values of the rows (n, k) to coefficients of weighted ridge regression."""
+    weighted = rows * weights[:, None]
+    second = RIDGE * (1.0 if len(rows) >= FEW else FEW_MORE)
+    products = d * (d + 1) // 2
+    more = rows.shape[1] - 1 - d - products
+    ridge = [1e-9, *[RIDGE] * d, *[second] * products, *[RIDGE] * more]
+    found: Array = np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T)
+    return found
+
+
+def features(units: Array, scale: Array | float = 1.0) -> Array:
+    """Return 1, the coordinates and their products (n, 1 + d + d·(d + 1)/2) of points (n, d) of the unit cube.
+
+    The coordinates are from its middle, in halves of a scale (d,).
+    """
+    x = (2.0 * units - 1.0) / scale
+    first, second = np.triu_indices(x.shape[1])
+    return np.hstack([np.ones((len(x), 1)), x, x[:, first] * x[:, second]])
+
+
+def of_layout(laid: Mapping[str, float]) -> Array:
+    """Return the features (k,) of a layout."""
+    return np.array([laid[name] / unit for name, unit in LAID.items()])
 
 
 @dataclass(frozen=True)
@@ -44,10 +149,7 @@ class Estimate:
 class Estimator:
     """Estimates variants of one search; all follows from the trials that it learned.
 
-    Parameters
-    ----------
-    space, model, objective
-        Of the search; the model is one of printed robots. Where the workshop varies, layouts alone are known.
+    Where the workshop varies, layouts alone are known.
     """
 
     def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
@@ -65,7 +167,7 @@ class Estimator:
 
     def learn(self, trials: Sequence[Trial]) -> None:
         """Fit the figures of the robots that were built, if there are enough new ones among some trials."""
-        built = [] if self._space.varies_workshop else [one for one in trials if MARK in one.evaluation.metrics]
+        built = [] if self._space.varies_workshop else [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
         rows = learned_rows(len(built))
         if rows in (0, self._rows):
             return
@@ -76,7 +178,7 @@ class Estimator:
         self._figures, self._rows = FittedFigures.of(self._space, known, centre), rows
         self._estimates.clear()
 
-    def look_at(self, variants: Iterable[Variant], shared: Shared) -> None:
+    def look_at(self, variants: Iterable[Variant], shared: MapOnCores) -> None:
         """Lay out and estimate what was not yet, by a function that shares the work among cores."""
         asked = {one.key: one for one in variants}
         new = [one for key, one in asked.items() if key not in self._layouts]
@@ -127,7 +229,7 @@ class Estimator:
         margins |= {finding.name: finding.margin for finding in jump.findings if finding.name in STATICS}
         if jump.verdict != "jump":
             return Estimate(None, margins)
-        found = {name: float(value) for name, value in vars(jump).items() if isinstance(value, int | float)}
+        found = plain_figures(jump)
         size = max(design.l_max_mm / 1000.0, *(figures[name] for name in EXTENTS))
         found = {**figures, **found, "size_m": size, "body_lengths": found["touchdown_distance_m"] / size}
         found |= self._model.robust(robot, self._model.estimate_settings)

@@ -42,7 +42,6 @@ class Proposal:
 
     @property
     def log_value(self) -> float:
-        """The logarithm of the acquisition."""
         return self.log_improvement + self.log_feasible
 
     def promised_gain(self, best: float) -> float:
@@ -58,33 +57,15 @@ class Proposal:
 
 
 def propose(
-    space: Space,
-    posterior: SearchPosterior,
-    best: float,
-    elite: Array,
-    admits: Callable[[Variant], bool],
-    generator: np.random.Generator,
-    penalty: Callable[[Array], Array] | None = None,
-    held: Sequence[Array] = (),
-) -> Proposal | None:
+    space: Space, posterior: SearchPosterior, best: float, elite: Array, admits: Callable[[Variant], bool],
+    generator: np.random.Generator, penalty: Callable[[Array], Array] | None = None, held: Sequence[Array] = (),
+) -> Proposal | None:  # fmt: skip
     """Return the variant with the largest acquisition found, or None if no candidate is admitted.
 
-    Parameters
-    ----------
-    space, posterior
-        The space, and the surrogates that were fitted in it.
-    best
-        The score to be improved.
-    elite
-        Points (k, d) near which more candidates are drawn: the best designs so far.
-    admits
-        Whether a variant may be proposed: it is new, and the model admits it.
-    generator
-        Random generator that draws the candidates.
-    penalty
-        Subtracted from the logarithm of the acquisition: points (m, d) to (m,), 0 where allowed.
-    held
-        Points (d,) that are candidates too, and worth `HELD_BONUS` more.
+    `best` is the score to be improved; near the points (k, d) of the `elite`, the best designs so far, more candidates
+    are drawn. `admits` says whether a variant may be proposed: it is new, and the model admits it. The `penalty`, of
+    points (m, d) to (m,), 0 where allowed, is subtracted from the logarithm of the acquisition. Points (d,) that `held`
+    are candidates too, and worth `HELD_BONUS` more.
     """
 
     def log_acquisition(points: Array) -> Array:

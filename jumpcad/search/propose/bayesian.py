@@ -49,15 +49,9 @@ Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], l
 def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool:
     """Search for the highest score; return whether it ended because its last steps gained too little.
 
-    Parameters
-    ----------
-    evaluator
-        Its trials so far, and those of its prior study, are learned from.
-    stage
-        `initial` designs are evaluated before the first fit; the proposals of a batch are made without each other's
-        results. With a `least_gain`, the search ends where less is gained.
-    polls
-        Whether neighbours of the best printed robot are evaluated where proposals gain nothing.
+    The evaluator's trials so far, and those of its prior study, are learned from; the proposals of a batch are made
+    without each other's results. If it `polls`, neighbours of the best printed robot are evaluated where proposals gain
+    nothing.
     """
     start = len(evaluator.trials)
 
@@ -166,9 +160,7 @@ def run_steps(
 
 
 def unproposed(
-    evaluator: Evaluator,
-    proposals: Sequence[Proposal],
-    may_hold: Callable[[Variant], bool] = lambda _variant: True,
+    evaluator: Evaluator, proposals: Sequence[Proposal], may_hold: Callable[[Variant], bool] = lambda _variant: True
 ) -> Callable[[Variant], bool]:
     """Return a function that tells whether a variant may be proposed together with these."""
     taken = {proposal.variant.key for proposal in proposals}

@@ -31,15 +31,7 @@ anew with every fit, and the time of a step grows with both."""
 
 
 class DryRun:
-    """Tries variants of one search; see `of`.
-
-    Parameters
-    ----------
-    evaluator
-        Of the search; its model is a `PrintedModel`.
-    phase, seed, run
-        Of the search too: what other searches tried is not looked at.
-    """
+    """Tries variants of one search for a printed robot; see `of`. What other phases or runs tried is not looked at."""
 
     def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)

@@ -24,8 +24,6 @@ from jumpcad.transforms import Array
 
 PATIENCE = 50
 """The search ends after so many generations without a new design."""
-
-
 SMALL_STEPS: dict[str, Any] = {
     "crossover_type": "sbx", "sbx_crossover_eta": 10,
     "mutation_type": "polynomial", "polynomial_mutation_eta": 15, "mutation_probability": 0.15,
@@ -57,7 +55,10 @@ def run_genetic(evaluator: Evaluator, stage: Stage) -> None:
     score = Fitness(evaluator, "ga", stage.evaluations, rejected=-2.0 * LARGEST, run=stage.run)
     if request.screen:
         score = ScreenedFitness(evaluator, "ga", stage.evaluations, score.rejected, stage.run)
-    evolve(score, _first_population(evaluator, population, request.seed), operators, request.seed)
+    generator = np.random.default_rng([request.seed, 0])
+    spread = first_points(evaluator.space, population, generator, ranked_points(evaluator, generator))
+    first = begun_with(evaluator.space, feasible_trials(begun(evaluator)), spread, population)
+    evolve(score, first, operators, request.seed)
 
 
 class Fitness:
@@ -67,11 +68,7 @@ class Fitness:
     """
 
     def __init__(self, evaluator: Evaluator, phase: str, evaluations: int, rejected: Any, run: int = 0) -> None:
-        self.evaluator = evaluator
-        self.phase = phase
-        self.left = evaluations
-        self.rejected = rejected
-        self.run = run
+        self.evaluator, self.phase, self.left, self.rejected, self.run = evaluator, phase, evaluations, rejected, run
         self._idle = 0
         self._sizes: Mapping[str, float] = {}
         self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
@@ -126,7 +123,6 @@ class ScreenedFitness(Fitness):
         self._seen: set[Key] = set()
 
     def fitness(self, trial: Trial) -> Any:
-        """Return the fitness of a trial, estimated or exact."""
         if trial.evaluation.verdict != SCREENED:
             return super().fitness(trial)
         return trial.evaluation.metrics.get(GUESSED, self.rejected)
@@ -166,13 +162,6 @@ def evolve(fitness: Fitness, population: Array, operators: Mapping[str, Any], se
         logger=log,
         **operators,
     ).run()
-
-
-def _first_population(evaluator: Evaluator, count: int, seed: int) -> Array:
-    space = evaluator.space
-    generator = np.random.default_rng([seed, 0])
-    spread = first_points(evaluator.space, count, generator, ranked_points(evaluator, generator))
-    return begun_with(space, feasible_trials(begun(evaluator)), spread, count)
 
 
 def begun_with(space: Space, best: Sequence[Trial], spread: Array, count: int) -> Array:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from jumpcad.search.phases import START
+from jumpcad.search.methods import START
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.request import Stage
@@ -29,12 +29,9 @@ APART = 0.1
 
 
 def first_points(
-    space: Space,
-    count: int,
-    generator: np.random.Generator,
-    ranked: Sequence[Array] = (),
+    space: Space, count: int, generator: np.random.Generator, ranked: Sequence[Array] = (),
     admits: Callable[[Variant], bool] = lambda _variant: True,
-) -> Array:
+) -> Array:  # fmt: skip
     """Return at most `count` points (count, dimension) of the unit cube to start with, evenly spread ones first.
 
     Half of them are the first of the `ranked` points (dimension,) that are apart. What `admits` does not admit is

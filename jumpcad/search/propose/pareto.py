@@ -112,7 +112,6 @@ class ParetoFitness(Fitness):
         self.cost = cost
 
     def objectives(self, trial: Trial) -> list[float]:
-        """Return both objectives of a feasible trial."""
         return [trial.score or 0.0, -self.cost.of(trial)]
 
 

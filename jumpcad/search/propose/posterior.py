@@ -53,28 +53,15 @@ class SearchPosterior:
 
     @classmethod
     def from_trials(
-        cls,
-        space: Space,
-        trials: Sequence[Trial],
-        thetas: Mapping[str, Any],
-        fit: bool,
+        cls, space: Space, trials: Sequence[Trial], thetas: Mapping[str, Any], fit: bool,
         guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
         score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
-    ) -> Self:
-        """Learn from trials, starting from the hyperparameters `thetas` of an earlier posterior.
+    ) -> Self:  # fmt: skip
+        """Learn from trials in a space, starting from the hyperparameters `thetas` of an earlier posterior.
 
-        Parameters
-        ----------
-        space, trials
-            The space, and evaluated designs in it.
-        thetas
-            Hyperparameters by name, as `thetas` gives them.
-        fit
-            Whether they are fitted anew. What has no hyperparameters yet is always fitted.
-        guesses
-            Points (d,) and guessed scores of variants, by their keys; of trials too.
-        score_of
-            The score of a trial that is learned, also of one that only misses what is required.
+        They are fitted anew if `fit`; what has none yet always is. `guesses` are points (d,) and guessed scores of
+        variants, by their keys; of trials too. `score_of` returns the score of a trial that is learned, also of one
+        that only misses what is required.
         """
         scale = space.scale
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension) / scale

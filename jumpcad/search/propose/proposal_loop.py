@@ -44,30 +44,17 @@ where all that was proposed has no room."""
 
 
 class ProposalLoop:
-    """Makes the posterior of a step, and proposals that were tried.
+    """Makes the posterior of a step from trials in a space, and proposals; where there is a dry run, these are tried.
 
-    Parameters
-    ----------
-    space, trials
-        The space, and evaluated designs in it.
-    dry_run
-        Where proposals are tried; None where they are not.
-    thetas
-        Hyperparameters of the step before.
-    refit
-        Whether they are fitted anew.
-    score_of
-        The score of a trial that is learned, also of one that only misses what is required.
+    `thetas` are the hyperparameters of the step before, to `refit` or not; for `score_of` see `SearchPosterior`.
     """
 
     def __init__(
         self, space: Space, trials: Sequence[Trial], dry_run: DryRun | None, thetas: Mapping[str, Any], refit: bool,
         score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
     ) -> None:  # fmt: skip
-        self._score_of = score_of
         self._space, self._trials, self._dry_run = space, trials, dry_run
-        self.thetas: Mapping[str, Any] = thetas
-        self._refit = refit
+        self.thetas, self._refit, self._score_of = thetas, refit, score_of
         self.tried: list[Array] = []
         self._proposed: list[Array] = []
         self._failed: set[Key] = set()
@@ -114,13 +101,9 @@ class ProposalLoop:
         return proposal
 
     def beside(
-        self,
-        trials: Sequence[Trial],
-        admits: Callable[[Variant], bool],
-        generator: np.random.Generator,
-        wider: float = 1.0,
-        within: float = WITHIN,
-    ) -> Proposal | None:
+        self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator,
+        wider: float = 1.0, within: float = WITHIN,
+    ) -> Proposal | None:  # fmt: skip
         """Return what lies near the best of some trials, or is bred, with the best estimate; None of a worse one.
 
         `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are tried.

@@ -38,29 +38,16 @@ def one_hot(points: Array, categories: Sequence[int]) -> Array:
 class Surrogate:
     """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length scale per axis, plus noise.
 
-    Parameters
-    ----------
-    x, y
-        Points (n, d) and values (n,).
-    theta
-        Logarithms of the hyperparameters, (k + 2,): variance, a length scale for each axis of `one_hot`, noise.
-    fit
-        Whether to improve them by maximum likelihood, as without `theta` too.
-    categories
-        Number of names of each axis; 0 for an axis of numbers. Empty: all are numbers.
-    units
-        What counts as 0 and as 1 of the values; their mean and standard deviation if None.
+    Of points x (n, d) and values y (n,). `theta` are logarithms of the hyperparameters, (k + 2,): variance, a length
+    scale for each axis of `one_hot`, noise; they are improved by maximum likelihood if `fit`, or without any.
+    `categories` are the numbers of names of the axes, 0 for one of numbers; empty: all are numbers. `units` are what
+    counts as 0 and as 1 of the values; their mean and standard deviation if None.
     """
 
     def __init__(
-        self,
-        x: Array,
-        y: Array,
-        theta: Sequence[float] | None = None,
-        fit: bool = True,
-        categories: Sequence[int] = (),
-        units: tuple[float, float] | None = None,
-    ) -> None:
+        self, x: Array, y: Array, theta: Sequence[float] | None = None, fit: bool = True,
+        categories: Sequence[int] = (), units: tuple[float, float] | None = None,
+    ) -> None:  # fmt: skip
         self.categories = tuple(categories) or (0,) * x.shape[1]
         seen = one_hot(x, self.categories)
         spread = float(np.std(y))
@@ -82,7 +69,7 @@ class Surrogate:
 
     def predict(self, points: Array) -> tuple[Array, Array]:
         """Return mean (m,) and standard deviation (m,) of the noise-free function at points (m, d)."""
-        covariance = self._covariance(points)
+        covariance = self._variance * _matern(self._distance(one_hot(points, self.categories)))
         half, _ = dtrtrs(self._chol, covariance.T, lower=True)
         variance = np.maximum(self._variance - np.einsum("ij,ij->j", half, half), 1e-12)
         return self._centre + self._spread * (covariance @ self._alpha), self._spread * np.sqrt(variance)
@@ -95,11 +82,6 @@ class Surrogate:
         mean, _ = self.predict(point[None])
         x, y, units = np.vstack([self.x, point]), np.append(self.y, mean), (self._centre, self._spread)
         return type(self)(x, y, self.theta, False, self.categories, units)
-
-    def _covariance(self, points: Array) -> Array:
-        """Return the covariance (m, n) of points with the data."""
-        covariance: Array = self._variance * _matern(self._distance(one_hot(points, self.categories)))
-        return covariance
 
     def _distance(self, points: Array) -> Array:
         """Return the distances (m, n) of points (m, k) from the data: √5·r, in length scales of the kernel.
@@ -117,8 +99,7 @@ class Surrogate:
 
 def _matern(distance: Array) -> Array:
     """Return the correlation at a distance √5·r (Rasmussen and Williams 2006, eq. 4.17)."""
-    correlation: Array = (1.0 + distance + distance**2 / 3.0) * np.exp(-distance)
-    return correlation
+    return np.asarray((1.0 + distance + distance**2 / 3.0) * np.exp(-distance))
 
 
 def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]:

@@ -175,15 +175,12 @@ def parallel(found: StudySummary, shown: Sequence[Trial]) -> dict[str, Any]:
         "left": LEFT,
         "bundles": ["".join(_line(space, trial) for trial in reversed(bundle)) for bundle in bundles],
         "shown": [_line(space, trial) for trial in shown],
-        "axes": [
-            (
-                ROW * row,
-                one.name,
-                with_unit(" … ".join(value_words(one.value(end)) for end in (one.lower, one.upper)), one.name),
-            )
-            for row, one in enumerate(space.free, start=1)
-        ],
+        "axes": [(ROW * row, one.name, with_unit(_ends(one), one.name)) for row, one in enumerate(space.free, start=1)],
     }
+
+
+def _ends(one: SearchParameter) -> str:
+    return " … ".join(value_words(one.value(end)) for end in (one.lower, one.upper))
 
 
 def _line(space: Space, trial: Trial) -> str:

@@ -33,15 +33,9 @@ LETTERS_PER_INCH = 17.0
 SHOWN_AS = {"kg": ("g", 1000.0), "m": ("mm", 1000.0), "J": ("mJ", 1000.0)}
 """Units in which figures are shown in place of others, and the factor."""
 STYLE: dict[Any, Any] = {
-    "svg.hashsalt": "jumpcad",
-    "svg.fonttype": "path",
-    "font.size": 9.0,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.alpha": 0.25,
-    "legend.frameon": False,
-}
+    "svg.hashsalt": "jumpcad", "svg.fonttype": "path", "font.size": 9.0, "axes.spines.top": False,
+    "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.25, "legend.frameon": False,
+}  # fmt: skip
 
 
 @cache
@@ -72,12 +66,8 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
     with matplotlib.rc_context(STYLE):
         drawn = svg_text(figure)
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})
-    files: dict[str, str | bytes] = {
-        f"{name}.svg": sealed(drawn, "<!-- {} -->"),
-        f"{name}.png": sealed_png(pixels.getvalue()),
-    }
-    path, _ = write_files(Path(folder), files, force)
-    return path
+    svg, png = sealed(drawn, "<!-- {} -->"), sealed_png(pixels.getvalue())
+    return write_files(Path(folder), {f"{name}.svg": svg, f"{name}.png": png}, force)[0]
 
 
 def svg_text(figure: Figure) -> str:
@@ -89,7 +79,6 @@ def svg_text(figure: Figure) -> str:
 
 
 def labels(axes: Axes, x: str, y: str, title: str = "") -> None:
-    """Name the axes."""
     axes.set_xlabel(x)
     axes.set_ylabel(y)
     if title:

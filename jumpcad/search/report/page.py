@@ -20,12 +20,11 @@ from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.rendering import fill
-from jumpcad.files.templates import templates_folder
+from jumpcad.files.templates import fill, templates_folder
 from jumpcad.search.explore import LEAST_R_SQUARED, importance
 from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervolume
+from jumpcad.search.methods import FRONTS, LEARNING_PHASES
 from jumpcad.search.parameter import SearchParameter
-from jumpcad.search.phases import FRONTS, LEARNING_PHASES
 from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.report import plots
 from jumpcad.search.report.drawings import evenly, history, parallel, slices
@@ -71,33 +70,18 @@ def write_study_page(store: StudyStore, name: str) -> str:
     cost, is_front = described_cost(identity), identity["method"] in FRONTS
     shown = _shown(found, cost if is_front else None)
     values = {
-        "name": name,
+        "name": name, "found": found, "cost": cost, "is_front": is_front, "identity": identity,
         "style": "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css")),
         "program": (folder / "study.js").read_text(encoding="ascii"),
-        "found": found,
-        "designs": counted(len(found.trials), "design"),
-        "cost": cost,
-        "is_front": is_front,
-        "identity": identity,
-        "stages": store.recall("stages", []),
-        "held": store.trials(),
-        "righting": kept_righting(store, found.winner),
-        "counted": counted,
+        "designs": counted(len(found.trials), "design"), "stages": store.recall("stages", []),
+        "held": store.trials(), "righting": kept_righting(store, found.winner), "notes": store.notes(),
         "asked": [_asked(parameter, found.winner) for parameter in found.space.parameters],
-        "best": best_values(store, found, shown),
-        "history": history(found),
-        "slices": slices(found, shown),
-        "parallel": parallel(found, shown),
-        "pictures": _pictures(store),
-        "importance": importances(store, found),
-        "with_unit": with_unit,
-        "reason_words": reason_words,
-        "rising": rising(found),
-        "rejected": sum(trial.score is None for trial in found.trials),
-        "reasons": reason_rows(found),
-        "notes": store.notes(),
+        "best": best_values(store, found, shown), "history": history(found), "slices": slices(found, shown),
+        "parallel": parallel(found, shown), "pictures": _pictures(store), "importance": importances(store, found),
+        "rising": rising(found), "rejected": sum(trial.score is None for trial in found.trials),
+        "reasons": reason_rows(found), "counted": counted, "with_unit": with_unit, "reason_words": reason_words,
         "versions": ", ".join(f"{one} {str(version)[:12]}" for one, version in identity.get("versions", {}).items()),
-    }
+    }  # fmt: skip
     return allowed(fill("report/study/page.html.j2", values))
 
 
@@ -125,11 +109,8 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
     numbers = [found.numbers[trial.position] for trial in shown]
     drawn = chart(found.trials, shown, numbers, cost, is_front, str(store.path or UNSAVED))
     if is_front:
-        drawn |= {
-            "meaning": meanings()["pareto"],
-            "area": hypervolume(found.trials, cost=cost),
-            "whole": len(front(found.trials, cost)),
-        }
+        area, whole = hypervolume(found.trials, cost=cost), len(front(found.trials, cost))
+        drawn |= {"meaning": meanings()["pareto"], "area": area, "whole": whole}
     for one, trial in zip(drawn["shown"], shown, strict=True):
         values = [value_words(trial.variant.value(parameter.name), 4) for parameter in found.space.free]
         one |= {"energy_j": energy_j(trial.design), "values": values}
@@ -140,10 +121,8 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
         "candidates": found.candidates if are_candidates else [],
         "making": Tolerances.of(store.identity).words,
         "names": [named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
-        "poses": POSES,
-        "links": LINKS,
-        "edge_mm": EDGE_MM,
-    }
+        "poses": POSES, "links": LINKS, "edge_mm": EDGE_MM,
+    }  # fmt: skip
 
 
 def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
@@ -183,11 +162,7 @@ def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:
         for index in sorted(range(len(learned.names)), key=lambda index: -round(float(learned.mean[index]), 2))
     ]
     is_known = learned.r_squared >= LEAST_R_SQUARED  # nor is NaN
-    return {
-        "learned": learned,
-        "least": LEAST_R_SQUARED,
-        "rows": rows if is_known else [],
-    }
+    return {"learned": learned, "least": LEAST_R_SQUARED, "rows": rows if is_known else []}
 
 
 def rising(found: StudySummary) -> list[str] | None:

@@ -20,7 +20,7 @@ from jumpcad.search.explore import Components, FeasibilityMap, Importance, Sweep
 from jumpcad.search.fronts import SPRING_ENERGY, Cost, front
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import SearchPosterior, unwarped, warped
-from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels
+from jumpcad.search.report.figures import BLUE, GREY, ORANGE, RED, labels, panels, value_words
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.trial import Trial, best_trial, feasible_trials
@@ -91,7 +91,7 @@ def parallel(space: Space, trials: Sequence[Trial]) -> Figure:
     for rank, trial in zip(ranks, feasible, strict=True):
         colour = (BLUE if rank < 0.95 else RED, 0.05 + 0.9 * rank**4)
         axes.plot(range(space.dimension), space.to_unit(trial.variant), "-", lw=0.8, color=colour)
-    ticks = [f"{p.name}\n{_end(p, p.lower)} … {_end(p, p.upper)}" for p in space.free]
+    ticks = [f"{p.name}\n{' … '.join(value_words(p.value(end)) for end in (p.lower, p.upper))}" for p in space.free]
     axes.set_xticks(range(space.dimension), ticks, rotation=30, ha="right", fontsize=7)
     colours = {"best twentieth": RED, "the others, the better the darker": BLUE}
     handles = [Line2D([], [], color=colour, label=label) for label, colour in colours.items()]
@@ -259,13 +259,7 @@ def _at_the_foot(axes: Axes, x: npt.NDArray[Any], marker: str, **how: Any) -> No
     axes.plot(x, np.full(len(x), 0.03), marker, transform=axes.get_xaxis_transform(), **how)
 
 
-def _end(parameter: SearchParameter, number: float) -> str:
-    value = parameter.value(number)
-    return value if isinstance(value, str) else f"{value:g}"
-
-
 def _name_ticks(axes: Axes, names: Sequence[str]) -> None:
-    """Label the indices of names with the names."""
     if names:
         axes.set_xticks(range(len(names)), names, rotation=30, ha="right", fontsize=7)
 

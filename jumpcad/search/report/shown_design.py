@@ -48,18 +48,8 @@ def chart(
 ) -> dict[str, Any]:
     """Return the axes of a chart, the paths of other designs and of a front's line, and the shown designs.
 
-    Parameters
-    ----------
-    trials
-        All designs of the search; those that do not jump are left out.
-    shown, numbers
-        The designs that the page shows, and their numbers as trials of the study.
-    cost
-        What the score is drawn against.
-    is_front
-        Whether to draw the line of the front.
-    file
-        The study, for the command that shows a design again.
+    The score is drawn against a cost; trials that do not jump are left out. The shown designs have `numbers` as trials
+    of the study, and a command for its file.
     """
     feasible = [trial for trial in trials if trial.score is not None and np.isfinite(cost.of(trial))]
 
@@ -98,15 +88,9 @@ def shown_design(trial: Trial, of_study: int, file: str) -> dict[str, Any]:
     except CannotBuildError as error:
         poses, impossible = {}, str(error)
     first, others = _lines(trial)
-    return {
-        "of_study": of_study,
-        "score": trial.score,
-        "poses": poses,
-        "impossible": impossible,
-        "first": first,
-        "others": others,
-        "command": f"jumpcad studio {shlex.quote(file)} --trial {of_study}",
-    }
+    command = f"jumpcad studio {shlex.quote(file)} --trial {of_study}"
+    return {"of_study": of_study, "score": trial.score, "poses": poses, "impossible": impossible, "first": first,
+            "others": others, "command": command}  # fmt: skip
 
 
 def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:

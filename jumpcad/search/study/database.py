@@ -30,8 +30,6 @@ INDEX_BEGINS = tuple((3007000).to_bytes(4, order) for order in ("little", "big")
 """First bytes of a log's index, on machines of either order (Walindex format, 2.1)."""
 COPIES = 10
 """How often a database that changes meanwhile is copied."""
-
-
 own_id: Callable[[], int] = getattr(os, "geteuid", int)
 """Returns the number of the user; 0 where files have none."""
 
@@ -206,7 +204,7 @@ def plain_errors(path: Path | None) -> Iterator[None]:
     except UnicodeDecodeError:  # from SQLite's message about a damaged file
         raise JumpcadError(f"{path}: is damaged, or is not a study file (invalid text)") from None
     except sqlite3.DatabaseError as error:
-        name, text = _name(error), without_controls(str(error))[:200]
+        name, text = str(getattr(error, "sqlite_errorname", "")), without_controls(str(error))[:200]
         if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
             reason = "is locked by another program; close it there and repeat the command"
         elif name.startswith(("SQLITE_FULL", "SQLITE_IOERR")):
@@ -216,8 +214,3 @@ def plain_errors(path: Path | None) -> Iterator[None]:
         else:
             reason = f"is damaged, or is not a study file ({text})"
         raise JumpcadError(f"{path}: {reason}") from None
-
-
-def _name(error: sqlite3.Error) -> str:
-    """Return SQLite's name of an error; empty for other errors."""
-    return str(getattr(error, "sqlite_errorname", ""))

@@ -27,35 +27,18 @@ class Evaluator:
     A search is a deterministic function of its seed and of the trials it has seen. It therefore resumes by being run
     again: proposals that are in the study file are read, and from the first one that is not, they are computed.
 
-    Parameters
-    ----------
-    request
-        What is asked for: its space is searched, its model evaluates designs, its objective scores them.
-    store, pool
-        Where trials are kept, and what computes them.
-    prior
-        Trials of an earlier study that the search may learn from.
-    watch
-        Called with every trial.
-    expired
-        Whether evaluations or time of the search are spent; who proposes designs asks before every step.
+    The space of the request is searched, its model evaluates designs on a pool, its objective scores them; trials are
+    kept in a store. The search may learn from those of a `prior` study. `expired` says whether evaluations or time are
+    spent; who proposes designs asks before every step.
     """
 
     @check_arguments
     def __init__(
-        self,
-        request: Request,
-        store: StudyStore,
-        pool: Pool,
-        prior: Sequence[Trial] = (),
-        watch: Watch = lambda trial, computed: None,
-        expired: Callable[[], bool] = lambda: False,
-    ) -> None:
-        self.request = request
-        self.store = store
-        self.expired = expired
-        self._pool = pool
-        self._watch = watch
+        self, request: Request, store: StudyStore, pool: Pool, prior: Sequence[Trial] = (),
+        watch: Watch = lambda trial, computed: None, expired: Callable[[], bool] = lambda: False,
+    ) -> None:  # fmt: skip
+        self.request, self.store, self.expired = request, store, expired
+        self._pool, self._watch = pool, watch
         held = store.trials()
         self._finished = {trial.key: trial for trial in held}
         self._taken = {trial.position: trial.key for trial in held}
@@ -66,17 +49,14 @@ class Evaluator:
 
     @property
     def space(self) -> Space:
-        """The space that is searched."""
         return self.request.space
 
     @property
     def objective(self) -> Objective:
-        """The objective that scores designs."""
         return self.request.aim
 
     @property
     def model(self) -> RobotModel:
-        """What evaluates designs."""
         return self.request.model
 
     @property
@@ -112,15 +92,10 @@ class Evaluator:
         return trials
 
     def evaluate(
-        self,
-        designs: Sequence[Design | Variant],
-        phase: str,
-        step: int,
-        limit: int | None = None,
-        proposals: Sequence[Mapping[str, Any]] | None = None,
-        left_out: Mapping[Key, Evaluation] = NOTHING,
+        self, designs: Sequence[Design | Variant], phase: str, step: int, limit: int | None = None,
+        proposals: Sequence[Mapping[str, Any]] | None = None, left_out: Mapping[Key, Evaluation] = NOTHING,
         run: int = 0,
-    ) -> list[Trial | None]:
+    ) -> list[Trial | None]:  # fmt: skip
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
         Of variants that are `left_out`, by their keys, the outcome is given: a screen has seen them.
@@ -151,7 +126,9 @@ class Evaluator:
         except BaseException:
             self._commit(done)
             raise
-        self._require_a_working_model(done)
+        if len(done) > 1 and not self._finished and all(one.evaluation.verdict == QUARANTINED for one in done):
+            # then the cause is the model, not a design
+            raise JumpcadError(f"every evaluation failed, so the model cannot work here: {done[0].evaluation.detail}")
         self._commit(done)
         for key in fresh:
             self._add(self._finished[key], computed=key in new)
@@ -172,8 +149,3 @@ class Evaluator:
     def _add(self, trial: Trial, computed: bool) -> None:
         self._seen[trial.key] = trial
         self._watch(trial, computed)
-
-    def _require_a_working_model(self, trials: list[Trial]) -> None:
-        """Raise if every evaluation of the first batch failed: then the cause is the model, not a design."""
-        if len(trials) > 1 and not self._finished and all(trial.evaluation.verdict == QUARANTINED for trial in trials):
-            raise JumpcadError(f"every evaluation failed, so the model cannot work here: {trials[0].evaluation.detail}")

@@ -90,9 +90,7 @@ class Evaluation:
 
     @property
     def bare(self) -> "Evaluation":
-        """The same with findings of name, severity, unit and six digits of margin only, without what is no number.
-
-        It is what studies keep.
+        """What studies keep: findings of name, severity, unit and six digits of margin only, without what is no number.
 
         Ninety findings with their texts are 30 kB; who wants to read them evaluates the design again.
         """
@@ -196,10 +194,7 @@ OBJECTIVES: dict[str, Objective] = {
             "range-per-joule", "range per joule of electricity", "m/J", lambda m: _range_m(m) / m["electrical_energy_j"]
         ),
         Objective(
-            "range-per-spring-joule",
-            "range per joule in springs",
-            "m/J",
-            lambda m: _range_m(m) / m["spring_energy_j"],
+            "range-per-spring-joule", "range per joule in springs", "m/J", lambda m: _range_m(m) / m["spring_energy_j"]
         ),
         Objective(
             "metres-per-charge",

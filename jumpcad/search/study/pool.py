@@ -12,6 +12,7 @@ import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from threading import Thread
 from typing import Any
@@ -22,7 +23,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
-from jumpcad.process import A, T, cores, one_by_one, raise_if_seen
+from jumpcad.process import A, T, cores, in_turn, raise_if_seen
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import QUARANTINED, Evaluation
 from jumpcad.search.study.variant import Variant
@@ -48,51 +49,28 @@ class Outcome:
     duration_s: float
 
 
-class Pool:
-    """Runs evaluations on an executor, and repeats those of lost workers.
+class Pool(AbstractContextManager["Pool"]):
+    """Runs so many evaluations at a time on an executor, and repeats those of lost workers.
 
-    Parameters
-    ----------
-    open_executor
-        Makes the executor; called again after its processes were lost.
-    end_executor
-        Ends it without waiting for running evaluations.
-    workers
-        Number of evaluations at a time.
-    limit_s
-        Timeout per evaluation (s), after which its worker is ended; 0 for none.
-    notice
-        Called with one line about every failure.
-    lost
-        Called where nothing ends for `ANSWER_S`: says why nothing will any more, or nothing.
+    The executor is opened again after its processes were lost, and ended without waiting for running evaluations. After
+    a timeout (s) per evaluation its worker is ended; 0 for none. `notice` is called with one line about every failure,
+    `lost` where nothing ends for `ANSWER_S`: it says why nothing will any more, or nothing.
     """
 
     @check_arguments
     def __init__(
-        self,
-        open_executor: Callable[[], Executor],
-        end_executor: Callable[[Any], None],
-        workers: int,
-        limit_s: float = 0.0,
-        notice: Callable[[str], None] = lambda text: None,
-        lost: Callable[[], str] = str,
-    ) -> None:
-        self.workers = workers
-        self.notice = notice
-        self._open = open_executor
-        self._end = end_executor
-        self._limit_s = limit_s
-        self._lost = lost
+        self, open_executor: Callable[[], Executor], end_executor: Callable[[Any], None], workers: int,
+        limit_s: float = 0.0, notice: Callable[[str], None] = lambda text: None, lost: Callable[[], str] = str,
+    ) -> None:  # fmt: skip
+        self.workers, self.notice = workers, notice
+        self._open, self._end = open_executor, end_executor
+        self._limit_s, self._lost = limit_s, lost
         self._executor: Executor | None = None
-
-    def __enter__(self) -> "Pool":
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
-        """End the workers."""
         if self._executor is not None:
             self._end(self._executor)
             self._executor = None
@@ -137,7 +115,7 @@ class Pool:
         except Exception:  # an objective of the user's that holds what cannot be sent
             sent = b""
         if not sent:
-            return one_by_one(function, arguments)
+            return in_turn(function, arguments)
         others: list[Future[list[T]]] = []
         found: list[T] = []
         while len(others) < len(parts):
@@ -145,10 +123,10 @@ class Pool:
             if sum(not other.done() for other in others) < 2 * self.workers:
                 others.append(self._submit(share, sent, parts[len(others)]))
             else:
-                found = [*one_by_one(function, parts.pop()), *found]
+                found = [*in_turn(function, parts.pop()), *found]
         for part, other in zip(parts[::-1], others[::-1], strict=True):
             done = other.done() and not other.cancelled() and other.exception() is None
-            found = [*(other.result() if done else one_by_one(function, part)), *found]
+            found = [*(other.result() if done else in_turn(function, part)), *found]
         return found
 
     def _ended(self, running: Iterable[Future[bytes]]) -> Iterable[Future[bytes]]:
@@ -305,7 +283,6 @@ class InProcess(Executor):
     """An executor that does its work in the calling process when it is submitted."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Return a future that is done."""
         future: Future[Any] = Future()
         try:
             future.set_result(fn(*args, **kwargs))

@@ -16,7 +16,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.files.complaints import shown
 from jumpcad.files.records import Name, Text
-from jumpcad.search.phases import LEARNING_PHASES, STAGES
+from jumpcad.search.methods import LEARNING_PHASES, STAGES
 from jumpcad.search.study.trial import PLACE, Count, Trial, one_of
 from jumpcad.search.study.variant import MADE, Tolerances
 
@@ -29,7 +29,6 @@ COLUMNS = (*PLACE, "score", "record")
 
 
 def to_row(trial: Trial) -> tuple[Any, ...]:
-    """Return the columns of a trial."""
     record = json.dumps(_TRIAL.dump_python(trial), ensure_ascii=False, separators=(",", ":"))
     return *trial.position, trial.score, record
 

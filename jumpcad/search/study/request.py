@@ -14,23 +14,10 @@ from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
+from jumpcad.search import methods
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
+from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, STAGES, Method
 from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
-from jumpcad.search.phases import (
-    DEFAULT,
-    EVALUATIONS,
-    FRONTS,
-    LEAST_PICK,
-    METHODS,
-    MOST_PICK,
-    NAMES,
-    PRESETS,
-    SEQUENCES,
-    STAGES,
-    START,
-    UNTIL_PERCENT,
-    Method,
-)
 from jumpcad.search.space import Space
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.objective import Objective, find_objective
@@ -47,26 +34,21 @@ LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 
 @dataclass(frozen=True, repr=False)
 class Request:
-    """What a study is asked for: one object from the command line to the method.
+    """What a study is asked for, as by `jumpcad.optimize`: one object from the command line to the method.
 
-    Parameters
-    ----------
-    space, model
-        The space that is searched, and the robot's model; a printed one then computes what method and objective need.
-    objective, method, evaluations, seed, preset, batch, prior, until_percent, hours, screen, against, start, around
-        See `jumpcad.optimize`.
+    A model of the printed robot is made to compute what method and objective need.
     """
 
     space: Space
     model: RobotModel
     objective: str | Callable[..., Any] | Objective | None = None
-    method: str = DEFAULT
-    evaluations: int = EVALUATIONS
+    method: str = methods.DEFAULT
+    evaluations: int = methods.EVALUATIONS
     seed: int = 0
     preset: str = "recommended"
     batch: int = 1
     prior: Path | None = None
-    until_percent: float = UNTIL_PERCENT
+    until_percent: float = methods.UNTIL_PERCENT
     hours: float = 0.0
     screen: bool = False
     against: str | None = None
@@ -75,7 +57,7 @@ class Request:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        for name, kind, known in ((self.preset, "presets", PRESETS), (self.method, "methods", NAMES)):
+        for name, kind, known in ((self.preset, "presets", methods.PRESETS), (self.method, "methods", NAMES)):
             if name not in known:
                 hint = did_you_mean(name, known)
                 raise JumpcadError(f"{name!r} is not one of the {kind} {', '.join(known)}{hint}")
@@ -97,20 +79,16 @@ class Request:
             ("until_percent", self.until_percent, 0, 100),
             ("hours", self.hours, 0, 1e6),
         ):
-            if not value >= least:  # nor is NaN
-                raise JumpcadError(f"{name} = {shown(value)} must be at least {least}")
-            if value > most:
-                raise JumpcadError(f"{name} = {shown(value)} must be at most {most}")
+            if not least <= value <= most:  # nor is NaN
+                limit = f"most {most}" if value > most else f"least {least}"
+                raise JumpcadError(f"{name} = {shown(value)} must be at {limit}")
         self.aim.require(self.model.figure_names)
         if self.is_front and self.cost.of_design is None:
             self.cost.figure.require(self.model.figure_names, "against")
         if self.is_front and self.cost.figure is self.aim:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
-        if (
-            self.is_front
-            and self.cost is SPRING_ENERGY
-            and any(one.name == "bought.spring" for one in self.space.of_workshop)
-        ):
+        of_workshop = {one.name for one in self.space.of_workshop}
+        if self.is_front and self.cost is SPRING_ENERGY and "bought.spring" in of_workshop:
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         for name, takes in TAKE.items():
             value = getattr(self, name)
@@ -155,8 +133,8 @@ class Request:
 
         Of a front, all of them examine neighbours.
         """
-        share = min(self.evaluations // 4, MOST_PICK)
-        return share if share >= LEAST_PICK else 0
+        share = min(self.evaluations // 4, methods.MOST_PICK)
+        return share if share >= methods.LEAST_PICK else 0
 
     @property
     def first(self) -> tuple[Variant, ...]:
@@ -186,7 +164,6 @@ class Request:
 
     @property
     def aim(self) -> Objective:
-        """The objective itself."""
         assert isinstance(self.objective, Objective)
         return self.objective
 
@@ -205,20 +182,15 @@ class Request:
         """Return all that decides the trials of the study, except their number."""
         learned = json.dumps([[trial.key, trial.score] for trial in prior])
         return {
-            "model": self.model.describe(),
-            **self.aim.describe(),
-            **(self.cost.describe() if self.is_front else {}),
-            "method": self.method,
-            "space": self.space.describe(),
-            "seed": self.seed,
-            "preset": self.preset,
+            "model": self.model.describe(), **self.aim.describe(), **(self.cost.describe() if self.is_front else {}),
+            "method": self.method, "space": self.space.describe(), "seed": self.seed, "preset": self.preset,
             "batch": self.batch,
             **({"screen": self.model.estimate_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
             "making": asdict(self.model.making),
             **({"start": [one.key for one in self.first]} if self.first else {}),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
-        }
+        }  # fmt: skip
 
     def default_name(self) -> str:
         """Return a file name that is the same for equal requests and different for others."""
@@ -230,22 +202,10 @@ class Request:
 
 @dataclass(frozen=True)
 class Stage:
-    """One run of a method for a request.
+    """One run of a method for a request, with at most so many new designs; it may run several times in a study.
 
-    Parameters
-    ----------
-    request
-        What is asked for: seed, batch, preset and all else.
-    method
-        Name of the method.
-    evaluations
-        Number of new designs, at most.
-    initial
-        How many of them are spread evenly over the space first, for a method that learns.
-    run
-        Number of this run of the method: it may run several times in a study.
-    least_gain
-        Share of the best score below which a method that learns ends; 0 for none.
+    A method that learns spreads its `initial` designs evenly over the space, and ends where less than a share
+    `least_gain` of the best score is gained; 0 for none.
     """
 
     request: Request
@@ -287,13 +247,13 @@ def plan_stages(request: Request, prior: int = 0) -> list[Stage]:
     from them as from evenly spread designs, and more of them are wasted. Only the last stage ends where little is
     gained: what came before would have led it elsewhere.
     """
-    first, methods = len(request.first), _methods(request.method)
+    first, parts = len(request.first), _methods(request.method)
     total = request.searched - first
-    shares = [min(total // 3, MOST_FIRST)] if len(methods) > 1 else []
+    shares = [min(total // 3, MOST_FIRST)] if len(parts) > 1 else []
     shares.append(total - sum(shares))
-    learns = len(methods) == 1 and methods[0].learns
+    learns = len(parts) == 1 and parts[0].learns
     initial = default_initial(request.space, total, prior, request.estimated) if learns else 0
-    stages = [Stage(request, method.name, share, initial) for method, share in zip(methods, shares, strict=True)]
-    least_gain = request.until_percent / 100.0 if methods[-1].ends else 0.0
-    begin = [Stage(request, START, first)] if first else []
+    stages = [Stage(request, method.name, share, initial) for method, share in zip(parts, shares, strict=True)]
+    least_gain = request.until_percent / 100.0 if parts[-1].ends else 0.0
+    begin = [Stage(request, methods.START, first)] if first else []
     return [*begin, *stages[:-1], replace(stages[-1], least_gain=least_gain)]

@@ -68,12 +68,10 @@ class Requirement:
     def findings(self, value: float) -> Iterator[Finding]:
         """Yield a finding of a value for each limit, named after it."""
         remedy = "change what the figure depends on, or require less"
-        if self.least is not None:
-            name = f"{self.name}>={_number(self.least)}"
-            yield at_least(name, value, self.least, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
-        if self.most is not None:
-            name = f"{self.name}<={_number(self.most)}"
-            yield at_most(name, value, self.most, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
+        for sign, bound, found in ((">=", self.least, at_least), ("<=", self.most, at_most)):
+            if bound is not None:
+                name = f"{self.name}{sign}{_number(bound)}"
+                yield found(name, value, bound, "", f"{self.name} is {value:.4g}, required is {name}", remedy)
 
 
 def _number(value: float) -> str:

@@ -30,29 +30,14 @@ def workshop_file(design_file: Path) -> Path:
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Result(ByValue):
-    """What a study found.
+    """What a study found: all trials of the search in order, and the `best`, None where no design jumps.
 
-    Parameters
-    ----------
-    request
-        What was asked for.
-    trials
-        All designs that the search evaluated, in order.
-    best
-        The trial with the highest score; None where no design jumps.
-    candidates
-        The best designs, or those of the front, with the scores of their neighbours, most robust first.
-    bounds
-        Bounds of the search on which the winner lies.
-    notes
-        What happened to the run: lost workers, quarantined designs.
-    evaluations
-        How many robots were built and simulated in all, those of the robust pick included.
-    converged
-        Whether the search ended before all of its evaluations, because its last steps gained too little.
-    righting
-        Where `rights_itself` is required, simulated for the winner: `tries`, and the shares of as many `drops` and
-        `landings` after which it stands.
+    `candidates` are the best designs, or those of the front, with the scores of their neighbours, most robust first;
+    `bounds` those of the search on which the winner lies; `notes` what happened to the run: lost workers, quarantined
+    designs. `evaluations` counts all robots that were built and simulated, those of the robust pick too. The search has
+    `converged` if it ended before all of its evaluations, because its last steps gained too little. Where
+    `rights_itself` is required, `righting` is simulated for the winner: `tries`, and the shares of as many `drops` and
+    `landings` after which it stands.
     """
 
     request: Request
@@ -77,16 +62,11 @@ class Result(ByValue):
         """Why there is no winner: no design jumps, or the scores tell none of those that do apart; mostly empty."""
         reasons = ", ".join(f"{name} {count}" for name, count in list(self.rejected.items())[:5])
         if self.best is None:
-            designs = counted(len(self.trials), "design")
-            return (
-                self.why_required or f"none of {designs} jumps ({reasons}): widen the bounds, or evaluate more designs"
-            )
+            none = f"none of {counted(len(self.trials), 'design')} jumps ({reasons})"
+            return self.why_required or f"{none}: widen the bounds, or evaluate more designs"
         if is_flat(self.trials) and not self.request.is_front:
-            others = f"; rejected: {reasons}" if reasons else ""
-            return (
-                f"every design that jumps scores {self.best.score:g}: {self.request.aim.name} tells none apart; "
-                f"choose another objective{others}"
-            )
+            alike = f"every design that jumps scores {self.best.score:g}: {self.request.aim.name} tells none apart"
+            return f"{alike}; choose another objective{f'; rejected: {reasons}' if reasons else ''}"
         return ""
 
     @property
@@ -173,18 +153,13 @@ class Result(ByValue):
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
         data: dict[str, Any] = {
-            "method": self.request.method,
-            "objective": self.request.aim.name,
-            "evaluations": self.evaluations,
-            "searched": len(self.trials),
-            "converged": self.converged,
-            "refused": self.rejected,
-            "best": None if self.best is None else self.best.to_dict(),
-            "winner": None if self.winner is None else self.winner.to_dict(),
+            "method": self.request.method, "objective": self.request.aim.name, "evaluations": self.evaluations,
+            "searched": len(self.trials), "converged": self.converged, "refused": self.rejected,
+            "best": self.best and self.best.to_dict(), "winner": self.winner and self.winner.to_dict(),
             "candidates": [candidate.to_dict() for candidate in self.candidates],
             "active_bounds": [asdict(bound) for bound in self.bounds],
             "notes": [*self.notes, *filter(None, [self.why_none])],
-        }
+        }  # fmt: skip
         if self.righting:
             data["righting"] = dict(self.righting)
         if self.request.is_front:

@@ -16,7 +16,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.fronts import front
-from jumpcad.search.phases import METHODS, SEARCH_PHASES, STAGES
+from jumpcad.search.methods import METHODS, SEARCH_PHASES, STAGES
 from jumpcad.search.robust_pick import ActiveBound, Candidate, active_bounds, rank_candidates
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.evaluator import Evaluator, Watch
@@ -60,12 +60,9 @@ class Clock:
 
 @check_arguments
 def run_study(
-    request: Request,
-    path: str | Path | None,
-    pool: Pool,
-    watch: Watch = lambda trial, computed: None,
+    request: Request, path: str | Path | None, pool: Pool, watch: Watch = lambda trial, computed: None,
     tell: Callable[[str], object] = str,
-) -> Result:
+) -> Result:  # fmt: skip
     """Run a study, or continue the one in a file; None keeps it in memory.
 
     `tell` is called with the reasons, a line each, where none of the first designs jumps.

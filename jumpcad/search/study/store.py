@@ -9,7 +9,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from jumpcad.arguments import check_arguments
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.outputs import require_path
 from jumpcad.search.fronts import SPRING_ENERGY
-from jumpcad.search.phases import SEARCH_PHASES
+from jumpcad.search.methods import SEARCH_PHASES
 from jumpcad.search.study.database import connect, locked, open_to_read, plain_errors
 from jumpcad.search.study.record import COLUMNS, REMEMBERED, read_trial, to_row, validated
 from jumpcad.search.study.trial import Position, Trial, in_order
@@ -45,7 +45,7 @@ MOST_NOTES, LONGEST_NOTE = 200, 1000
 """Notes that are read, and characters of each: a run has a few, a stranger's file may have any number."""
 
 
-class StudyStore:
+class StudyStore(AbstractContextManager["StudyStore"]):
     """An open study file; `StudyStore.write` and `StudyStore.read` open one."""
 
     _connection: sqlite3.Connection
@@ -107,11 +107,7 @@ class StudyStore:
         return store
 
     def close(self) -> None:
-        """Close the file."""
         self._closing.close()
-
-    def __enter__(self) -> "StudyStore":
-        return self
 
     def __exit__(self, kind: object, error: BaseException | None, _: object) -> None:
         """Close the file; remove it if it was made for a request that is wrong, and holds no score."""

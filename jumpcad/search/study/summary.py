@@ -9,8 +9,8 @@ from jumpcad.building import build
 from jumpcad.errors import JumpcadError
 from jumpcad.files import TomlTable
 from jumpcad.landing.landing import land
+from jumpcad.search.methods import EXPLORED, FRONTS, NAMES
 from jumpcad.search.models import RIGHTS_ITSELF, PrintedModel, RobotModel
-from jumpcad.search.phases import EXPLORED, FRONTS, NAMES
 from jumpcad.search.robust_pick import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective, described_objective
@@ -70,16 +70,9 @@ def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
 
 
 def keep_pick(store: StudyStore, run: int, candidates: list[Candidate], bounds: list[ActiveBound]) -> None:
-    """Keep what a pick found."""
     picks = store.recall(PICKS, [], _PICKS)
     picks[run] = replace(picks[run], candidates=candidates, bounds=bounds)
     store.remember(PICKS, picks, _PICKS)
-
-
-def read_pick(store: StudyStore, designs: int) -> tuple[list[Candidate], list[ActiveBound]]:
-    """Return what the last pick of a search of so many designs found; nothing where none has ended."""
-    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick.designs == designs and pick.candidates]
-    return (ended[-1].candidates, ended[-1].bounds or []) if ended else ([], [])
 
 
 def simulated_righting(model: RobotModel, store: StudyStore, winner: Trial | None) -> dict[str, float]:
@@ -110,23 +103,12 @@ def kept_righting(store: StudyStore, winner: Trial | None) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class StudySummary:
-    """What a study knows.
+    """What a study knows: the trials that the search proposed, in order, and the winner.
 
-    Parameters
-    ----------
-    space, objective
-        What was searched for, and where.
-    trials
-        All designs that the search proposed, in order.
-    winner
-        The most robust of the best designs, or the best where neighbours were not examined; None if no design jumps,
-        and of a search for one design whose scores are all alike.
-    candidates
-        The best designs with the scores of their neighbours, most robust first; none where the pick has not ended.
-    bounds
-        The bounds of the search on which the winner lies.
-    numbers
-        The numbers of the study's trials, by position.
+    That is the most robust of the best designs, or the best where neighbours were not examined; None if no design
+    jumps, and of a search for one design whose scores are all alike. `candidates` are the best designs with the scores
+    of their neighbours, most robust first, none where the pick has not ended; `bounds` those on which the winner lies;
+    `numbers` those of all trials, by position.
     """
 
     space: Space
@@ -144,7 +126,6 @@ class StudySummary:
 
     @property
     def scored(self) -> bool:
-        """Whether some design jumps."""
         return best_trial(self.trials) is not None
 
 
@@ -153,7 +134,8 @@ def summary(store: StudyStore) -> StudySummary:
     held, identity = store.trials(), store.identity
     space = Space.from_record(identity["space"])
     trials = searched(held)
-    candidates, bounds = read_pick(store, len(trials))
+    ended = [pick for pick in store.recall(PICKS, [], _PICKS) if pick.designs == len(trials) and pick.candidates]
+    candidates, bounds = (ended[-1].candidates, ended[-1].bounds or []) if ended else ([], [])
     seeks_one = identity["method"] in NAMES and identity["method"] not in FRONTS
     best = None if seeks_one and is_flat(trials) else best_trial(trials)
     winner = candidates[0].trial if candidates else best

@@ -19,7 +19,7 @@ from jumpcad.files.outputs import require_target, write_atomically
 from jumpcad.files.reading import to_csv
 from jumpcad.files.records import Text
 from jumpcad.findings import least
-from jumpcad.search.phases import PHASES, SEARCH_PHASES
+from jumpcad.search.methods import PHASES, SEARCH_PHASES
 from jumpcad.search.study.objective import EQUALS, Evaluation, Figure, Margin
 from jumpcad.search.study.variant import Key, Variant
 from jumpcad.transforms import Array
@@ -57,24 +57,10 @@ else:  # a prediction, hyperparameters by name, points that were tried
 class Trial:
     """One finished evaluation: the design, its place in the search, the outcome and the score; a row of a study file.
 
-    Parameters
-    ----------
-    phase, step, place
-        Phase of the study, step of the phase, and place in the step at which the design was proposed.
-    design, evaluation
-        The design and the outcome.
-    score
-        By the study's objective; None if the design is rejected.
-    model
-        Digest of the model that evaluated it.
-    duration_s
-        Duration of the evaluation.
-    proposal
-        The method's prediction when it proposed the design.
-    workshop
-        Values of the workshop that the search varies, by key.
-    run
-        Run of the phase: a method of `paper` runs several times in a study, and so does the pick of one that goes on.
+    It was proposed at a step of a phase of the study, at a place in the step; `run` counts the runs of the phase: a
+    method of `paper` runs several times in a study, and so does the pick of one that goes on. `proposal` is what the
+    method predicted then. A rejected design has no score. `model` is the digest of the model that evaluated it;
+    `workshop` holds the values of the workshop that the search varies, by key.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
@@ -103,24 +89,17 @@ class Trial:
 
     @property
     def position(self) -> Position:
-        """Where the trial was proposed."""
         return self.phase, self.run, self.step, self.place
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
-        evaluation = self.evaluation
-        margins = {name: {"margin": one.margin, "unit": one.unit} for name, one in least(evaluation.findings).items()}
+        found = self.evaluation
         return {
-            "phase": self.phase,
-            "score": self.score,
-            "fitness": evaluation.metrics.get("fitness") if evaluation.feasible else 0.0,
-            "verdict": evaluation.verdict,
-            "detail": evaluation.detail,
-            "design": self.design.model_dump(),
-            **({"workshop": dict(self.workshop)} if self.workshop else {}),
-            "metrics": dict(evaluation.metrics),
-            "margins": margins,
-        }
+            "phase": self.phase, "score": self.score,
+            "fitness": found.metrics.get("fitness") if found.feasible else 0.0,
+            "verdict": found.verdict, "detail": found.detail, "design": self.design.model_dump(),
+            **({"workshop": dict(self.workshop)} if self.workshop else {}), "metrics": dict(found.metrics),
+            "margins": {name: {"margin": one.margin, "unit": one.unit} for name, one in least(found.findings).items()},
+        }  # fmt: skip
 
     def __repr__(self) -> str:
         outcome = " ".join(self.evaluation.reasons)[:80] if self.score is None else f"score {self.score:.4g}"
@@ -128,7 +107,6 @@ class Trial:
 
 
 def in_order(trials: Iterable[Trial]) -> list[Trial]:
-    """Return trials in the order of their study."""
     return sorted(trials, key=lambda trial: (PHASES.index(trial.phase), *trial.position[1:]))
 
 
@@ -239,13 +217,9 @@ def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: 
         **dict(zip(PLACE, trial.position, strict=True)),
         **trial.design.model_dump(),
         **{key: trial.workshop.get(key) for key in keys},
-        "verdict": evaluation.verdict,
-        "feasible": evaluation.feasible,
-        "reasons": " ".join(evaluation.reasons),
+        "verdict": evaluation.verdict, "feasible": evaluation.feasible, "reasons": " ".join(evaluation.reasons),
         "score": trial.score,
         **{name: evaluation.metrics.get(name) for name in metrics},
         **{f"margin_{name}": evaluation.margins.get(name) for name in margins},
-        "detail": evaluation.detail,
-        "duration_s": trial.duration_s,
-        "model": trial.model,
-    }
+        "detail": evaluation.detail, "duration_s": trial.duration_s, "model": trial.model,
+    }  # fmt: skip

@@ -76,23 +76,14 @@ LENGTHS, SHARES = 4, 3
 class Tolerances:
     """How far what is made differs from its design.
 
-    Parameters
-    ----------
-    length_mm
-        Largest error of a link's length, evenly spread.
-    rate, mass
-        Standard deviations of the springs' rate and of the mass, relative.
-    floor
-        Standard deviation of the logarithm of the floor's friction.
-    printed
-        Whether neighbours are the printed robot of the design, with other lengths, springs and floor. Robots that are
-        made in no workshop have neighbours of other designs, and errors of lengths alone.
+    Neighbours of a `printed` robot are that robot with other lengths, springs and floor. Robots that are made in no
+    workshop have neighbours of other designs, and errors of lengths alone.
     """
 
-    length_mm: float
-    rate: float = 0.0
+    length_mm: float  # largest error of a link's length, evenly spread
+    rate: float = 0.0  # standard deviations, relative: of the springs' rate and of the mass
     mass: float = 0.0
-    floor: float = 0.0
+    floor: float = 0.0  # standard deviation of the logarithm of the floor's friction
     printed: bool = False
 
     @property

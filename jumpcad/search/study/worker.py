@@ -19,7 +19,7 @@ import cloudpickle
 import loky
 
 from jumpcad.errors import JumpcadError
-from jumpcad.process import ONE_THREAD, collect_seldom, deferred_interrupts, one_by_one, one_thread
+from jumpcad.process import ONE_THREAD, collect_seldom, deferred_interrupts, in_turn, one_thread
 from jumpcad.search.models import RobotModel
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.variant import Variant
@@ -96,7 +96,7 @@ def evaluate_one(sent: bytes, one: Variant, limit_s: float) -> bytes:
 
 def share(sent: bytes, arguments: Sequence[Any]) -> list[Any]:
     """Return what a pickled function returns for each argument, in a worker."""
-    return one_by_one(cloudpickle.loads(sent), arguments)
+    return in_turn(cloudpickle.loads(sent), arguments)
 
 
 @lru_cache(maxsize=1)

@@ -143,11 +143,7 @@ def test_what_fails_is_learned_as_a_trial_and_estimates_follow_the_robots_that_w
     failures = dry_run.failures(trials, [])
     assert len(failures) == min(sum(dry_run.failure(one) is not None for one in tried), FAILED)
     assert all(trial.score is None and not trial.evaluation.feasible for trial in failures)
-    for other in (
-        dry_run_of(phase="pareto"),
-        dry_run_of(asked=replace(STAGE, run=1)),
-        dry_run_of(prior=trials),
-    ):
+    for other in (dry_run_of(phase="pareto"), dry_run_of(asked=replace(STAGE, run=1)), dry_run_of(prior=trials)):
         other.learn(trials)  # what other searches tried is not looked at
         assert len(other.estimates(trials, [])) < len(known)
         assert other.failures(trials, []) == []

@@ -9,12 +9,7 @@ from support.hills import FIXED, SMALL, TOP, Hill
 from support.stages import stage
 
 from jumpcad.findings import bare
-from jumpcad.search.propose.genetic import (
-    PATIENCE,
-    Fitness,
-    evolve,
-    run_genetic,
-)
+from jumpcad.search.propose.genetic import PATIENCE, Fitness, evolve, run_genetic
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import GUESSED, SCREENED, Evaluation
 from jumpcad.workshop import load_workshop

@@ -7,13 +7,7 @@ from scipy.stats import norm
 from support.hills import SMALL, Hill
 
 from jumpcad.findings import Finding
-from jumpcad.search.propose.posterior import (
-    VERDICT,
-    SearchPosterior,
-    constraint_margins,
-    forwards,
-    warped,
-)
+from jumpcad.search.propose.posterior import VERDICT, SearchPosterior, constraint_margins, forwards, warped
 from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial

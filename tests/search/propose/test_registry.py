@@ -7,7 +7,7 @@ import pytest
 from support.hills import SMALL, Hill
 from support.stages import stage
 
-from jumpcad.search.phases import LEARNING_PHASES, METHODS, NAMES, Method
+from jumpcad.search.methods import LEARNING_PHASES, METHODS, NAMES, Method
 from jumpcad.search.space import Space
 from jumpcad.search.study import request
 from jumpcad.search.study.request import Request, plan_stages

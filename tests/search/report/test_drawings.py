@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from support.hills import FIXED, SMALL
 
-from jumpcad.files.rendering import environment, fill
+from jumpcad.files.templates import environment, fill
 from jumpcad.search.report.drawings import Axes, _line, evenly, history, parallel, scale, slices
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective

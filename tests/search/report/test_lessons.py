@@ -11,7 +11,7 @@ from support.hills import SMALL
 from jumpcad.design import load_design
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-from jumpcad.files.rendering import fill
+from jumpcad.files.templates import fill
 from jumpcad.findings import Finding
 from jumpcad.search.explore import Importance
 from jumpcad.search.report import page as study_page

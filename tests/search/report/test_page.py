@@ -97,7 +97,7 @@ def test_is_xml_that_asks_for_nothing_else(studies):
 
 
 def test_the_same_study_has_the_same_page(studies):
-    """Of a front: it has the most on it. `test_study_plots.py` draws the pictures of both kinds of search again."""
+    """Of a front: it has the most on it. The pictures of both kinds of search are drawn again below."""
     assert page_of(studies / "nsga2.db") == known_page_of(studies / "nsga2.db")
 
 

@@ -40,13 +40,7 @@ def test_the_best_is_the_first_of_equals_and_none_where_all_are_rejected(trial: 
 
 
 def test_trials_stand_in_the_order_of_phases_runs_steps_and_places(trial: Trial) -> None:
-    order = [
-        ("ga", 0, 0, 1),
-        ("ga", 0, 1, 0),
-        ("ga", 1, 0, 2),
-        ("bo", 0, 0, 0),
-        ("robust", 0, 0, 0),
-    ]
+    order = [("ga", 0, 0, 1), ("ga", 0, 1, 0), ("ga", 1, 0, 2), ("bo", 0, 0, 0), ("robust", 0, 0, 0)]
     trials = [replace(trial, phase=phase, run=run, step=step, place=place) for phase, run, step, place in order]
     backwards = trials[::-1]
     assert in_order(backwards) == trials

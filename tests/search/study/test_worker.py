@@ -65,10 +65,7 @@ def test_a_task_has_the_outcome_of_its_variant_and_how_long_it_took():
     design = SMALL.to_design([0.5] * 3)
     sent = cloudpickle.dumps((Told(), {"hill": "1"}))
     plates = {"body.plate_mm": 2.0}
-    for variant, expected in (
-        (Variant(design), Hill()(design)),
-        (Variant(design, plates), Evaluation("jump", plates)),
-    ):
+    for variant, expected in ((Variant(design), Hill()(design)), (Variant(design, plates), Evaluation("jump", plates))):
         found, duration_s = pickle.loads(worker.evaluate_one(sent, variant, 0.0))
         assert found == expected
         assert duration_s >= 0.02

@@ -9,37 +9,19 @@ class Method:
     """An entry of the registry: a function of an `Evaluator` and a `Stage`, which returns when that is done.
 
     All else follows from the entry: choices and help of `jumpcad optimize`, the plan of a study, what its file may
-    hold.
-
-    Parameters
-    ----------
-    name
-        Name on the command line; also the phase of the method's trials in a study file.
-    function
-        Where it is: `module.function` in `jumpcad.search.propose`. The module is imported when the method runs.
-    meaning
-        Description in the help.
-    front
-        Whether it searches a front of score against a cost, not one best design.
-    learns
-        Whether it fits a surrogate: it then starts with evenly spread designs, and each proposal carries the
-        hyperparameters (`theta`) with which the next step starts.
-    ends
-        Whether it ends where its steps gain less than a stage's `least_gain`.
-    shares
-        Whether its parts have shares of the evaluations: a search with more of them is another one.
-    least
-        Fewest evaluations that it takes: each of its parts has one.
+    hold. The name is also the phase of its trials; the module of `module.function`, in `jumpcad.search.propose`, is
+    imported when it runs. What `learns` fits a surrogate: it starts with evenly spread designs, and each proposal
+    carries the hyperparameters (`theta`) with which the next step starts.
     """
 
     name: str
     function: str
     meaning: str
-    front: bool = False
+    front: bool = False  # it searches a front of score against a cost, not one best design
     learns: bool = False
-    ends: bool = False
-    shares: bool = False
-    least: int = 0
+    ends: bool = False  # where its steps gain less than a stage's `least_gain`
+    shares: bool = False  # of the evaluations, for its parts: a search with more of them is another one
+    least: int = 0  # evaluations: each of its parts has one
 
 
 PAPER = "paper"
