@@ -19,7 +19,7 @@ from jumpcad.design import load_design
 from jumpcad.drive.release import MovingParts
 from jumpcad.errors import JumpcadError
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Friction
-from jumpcad.printing import cores, layer_mass
+from jumpcad.printing import layer_mass, layers
 from jumpcad.printing.layer_mass import printed_moments
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.moments import mass_of
@@ -185,7 +185,7 @@ def test_corners_that_are_left_out_of_plates_weigh_next_to_nothing(monkeypatch: 
     robots = [built("kenan-2.0"), built("best-printable", "light")]
     parts = [part for robot in robots for part in robot.parts if part.name.startswith(("body_plate", "electronics"))]
     assert len(parts) == 8
-    monkeypatch.setattr(cores, "MANY_HOLES", 10_000)
+    monkeypatch.setattr(layers, "MANY_HOLES", 10_000)
     monkeypatch.setattr(layer_mass, "FEW", 0)
     for one, shop in zip(parts, [robot.workshop for robot in robots for _ in range(4)], strict=True):
         density = shop.material("body").density_g_cm3
