@@ -187,16 +187,13 @@ def motion_gif(
     moments = np.searchsorted(times, np.arange(0.0, times[-1], FRAME_S), side="right") - 1
     poses = []
     for moment in moments:
-        bodies = {name: _pose(frames[moment]) for name, frames in data["frames"].items()}
-        poses.append(
-            [
-                chained(chained(bodies[thing.body], _turned(turning.get(thing.name), data, moment)), thing.T_body_mesh)
-                for thing in things
-            ]
-        )
+        rows = {name: np.array(frames[moment]) for name, frames in data["frames"].items()}
+        bodies = {name: pose_at(Rotation.from_quat(row[3:]).as_matrix(), row[:3]) for name, row in rows.items()}
+        turned = [chained(bodies[one.body], _turned(turning.get(one.name), data, moment)) for one in things]
+        poses.append([chained(pose, thing.T_body_mesh) for pose, thing in zip(turned, things, strict=True)])
     corners = np.concatenate([corners_of(things, one) for one in poses])
     camera = aimed(corners, view, size[0] / size[1])
-    scene = Renderer([(thing.mesh, thing.colour) for thing in things])
+    scene = _renderer(things)
     pictures = []
     for moment, one in zip(moments, poses, strict=True):
         phase = data["phase"][moment]
@@ -205,10 +202,6 @@ def motion_gif(
         caption = f"{title}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
         pictures.append(with_floor(scene.picture(one, size, view, corners), camera, corners, caption))
     return gif(pictures, round(1000.0 * FRAME_S))
-
-
-def _pose(seven: Sequence[float]) -> Array:
-    return pose_at(Rotation.from_quat(seven[3:]).as_matrix(), np.array(seven[:3]))
 
 
 def _turned(axis: dict[str, Any] | None, data: dict[str, Any], moment: int) -> Array:

@@ -55,11 +55,12 @@ Millimetres = Annotated[float, Field(ge=-1000, le=1000)]
 Point = Annotated[tuple[Millimetres, Millimetres], Field(strict=False)]
 Radius = Annotated[float, Field(ge=0.01, le=100)]
 Degrees = Annotated[float, Field(ge=-360, le=360)]
+Contact = Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)]
 Stiffness = Annotated[float, Field(gt=0, le=1e5)]
-
 
 MOST = 100
 """Bodies, hinges, loops and springs, and rods and contacts of a body; judgement: far more than a jumping robot has."""
+MANY = Field(strict=False, max_length=MOST)
 
 
 class Rod(TomlTable):
@@ -84,11 +85,8 @@ class OwnBody(TomlTable):
     mass_g: Annotated[float, Field(gt=0, le=1e6)] | None = None
     centre_mm: Point = (0.0, 0.0)
     inertia_gmm2: Annotated[float, Field(gt=0, le=1e12)] | None = None
-    rods: Annotated[tuple[Rod, ...], Field(strict=False, max_length=MOST)] = ()
-    contacts_mm: Annotated[
-        tuple[Annotated[tuple[Millimetres, Millimetres, Radius], Field(strict=False)], ...],
-        Field(strict=False, max_length=MOST),
-    ] = ()
+    rods: Annotated[tuple[Rod, ...], MANY] = ()
+    contacts_mm: Annotated[tuple[Contact, ...], MANY] = ()
 
     def body(self, name: str, contacts: tuple[ContactSphere, ...]) -> Body:
         """Return the body; motion in the plane depends on the inertia about y alone, the others are set like it."""
@@ -175,9 +173,9 @@ class RobotFile(Record):
     spring: SpringTable = SpringTable()
     stop: StopTable | None = None
     pins: PinsTable | None = None
-    joints: Annotated[tuple[JointTable, ...], Field(strict=False, max_length=MOST)] = ()
-    loops: Annotated[tuple[LoopTable, ...], Field(strict=False, max_length=MOST)] = ()
-    springs: Annotated[tuple[ChainSpringTable, ...], Field(strict=False, max_length=MOST)] = ()
+    joints: Annotated[tuple[JointTable, ...], MANY] = ()
+    loops: Annotated[tuple[LoopTable, ...], MANY] = ()
+    springs: Annotated[tuple[ChainSpringTable, ...], MANY] = ()
 
     def contradictions(self) -> Iterator[Contradiction]:
         """Yield bodies without mass or inertia, and what does not belong to this kind of robot."""

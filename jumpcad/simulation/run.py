@@ -223,18 +223,15 @@ class Run:
             if airborne < hold:
                 rose = False
             elif leg_rad >= 0 or leg_rad <= before:
-                if self._flies(world.state()):
+                state = world.state()
+                cleared = self.clearance_m == 0.0 or self.mechanics.clearance_m(state) >= self.clearance_m
+                if cleared and self._rises(state):
                     return self._takeoff(*left)
             elif airborne % hold == 0:
                 rises = self._rises(world.state())
                 if rose and not rises and self.mechanics.clearance_m(world.state()) >= self.clearance_m > 0.0:
                     return self._takeoff(*left)
                 rose = rises
-
-    def _flies(self, state: State) -> bool:
-        """Tell whether a robot in the air rises, and has cleared the ground."""
-        cleared = self.clearance_m == 0.0 or self.mechanics.clearance_m(state) >= self.clearance_m
-        return self._rises(state) and cleared
 
     def _rises(self, state: State) -> bool:
         return float(self.mechanics.velocity_m_s(state)[2]) > 0.0

@@ -44,12 +44,6 @@ def simulate(mechanism: Multibody, settings: Settings | None = None, engine: str
     Jump
         With the verdict of feasibility, push-off or audit. The same robot and settings give the same bits,
         in any process and after any other robot.
-
-    Raises
-    ------
-    JumpcadError
-        If the engine is unknown, is not installed, or cannot do what the settings ask; if the settings were changed to
-        invalid values.
     """
     settings = (settings or Settings()).revalidated()
     mechanism = with_spring_factor(mechanism, settings.spring_efficiency)

@@ -83,19 +83,11 @@ class Uncertainty(ByValue):
 
 @check_arguments
 def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0, samples: int = SAMPLES) -> Uncertainty:
-    """Return the uncertainty of a printed robot's jump.
+    """Return the uncertainty of a printed robot's jump over `samples` jumps, a power of two.
 
-    Parameters
-    ----------
-    robot
-        As built; its workshop has the tolerance of lengths and the scatter of spring rates.
-    settings
-        With the draws of a calibration; without draws the priors of a calibration are used, about the efficiency of
-        springs and the friction of pins and floor that the settings give.
-    engine
-        A key of `ENGINES`.
-    seed, samples
-        Random seed; number of jumps, a power of two.
+    The robot's workshop has the tolerance of lengths and the scatter of spring rates. Without draws of a calibration in
+    the settings, its priors are used, about the efficiency of springs and the friction of pins and floor that they
+    give.
     """
     points = sobol(INPUTS + (not settings.draws), samples, np.random.default_rng(seed))
     inputs = varied_inputs(robot, settings, np.clip(points, EDGE, 1.0 - EDGE))
