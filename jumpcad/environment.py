@@ -18,13 +18,14 @@ from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import described
 from jumpcad.landing.arena import STILL_M_S, STILL_RAD_S, Arena, Floor
 from jumpcad.landing.landing import DROP_M, scattered_floor
+from jumpcad.landing.obstacles import STEP_M, Obstacle
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.camera import aimed
 from jumpcad.scene.floor import with_floor
 from jumpcad.scene.renderer import Renderer
 from jumpcad.scene.visuals import visuals
-from jumpcad.transforms import Array, chained, pose_at
+from jumpcad.transforms import Array, chained
 from jumpcad.variation import variants
 from jumpcad.workshop import Workshop
 
@@ -69,8 +70,8 @@ the ground; distance and height of the step, 0 without one.
 """
 LOADED = 0.98
 """Share of the travel from which the cam lets the leg go; judgement: the latch holds it within 1 %."""
-STEP_M = (1.5, 1.5, 0.5)
-"""Half of the length, width and height of the step's box."""
+STEP = Obstacle(kind="step", at_m=(0.0, 0.0), height_mm=1.0, wide_m=3.0)
+"""A random step."""
 STEP_AHEAD_M = (0.15, 0.6)
 """Distances of a random step from the robot's centre of mass."""
 LONGEST_S = 86400.0
@@ -137,7 +138,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         ):
             if value not in known:
                 raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
-        if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[2]:
+        if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[1]:
             raise JumpcadError(f"steps_mm = {steps_mm}: must be the least and the largest height, 0 to 500 mm")
         if not 0.0 < step_s <= episode_s <= LONGEST_S:
             raise JumpcadError(
@@ -169,7 +170,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         arena = self._arena = self._arena_of(int(rng.integers(len(self._robots))))
         arena.stand_on(scattered_floor(rng) if self._scattered else Floor())
         if start == "lying":
-            arena.put_step(0.0, 0.0)
+            arena.place(0, None)
             attitude, drop = Rotation.random(rng=rng).as_quat(scalar_first=True), float(rng.uniform(*DROP_M))
             arena.put(attitude, drop, np.zeros(3), np.zeros(3))
             arena.rest()
@@ -178,7 +179,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         height = float(rng.uniform(*self._steps_mm)) / 1000.0
         at = arena.centre_of_mass_m[0] + float(rng.uniform(*STEP_AHEAD_M))
         self._step_at = (at, height) if height > 0.0 else (0.0, 0.0)
-        arena.put_step(*self._step_at)
+        arena.place(0, self._step)
         self._flies, self._begun_s = self._control == "torque", float(arena.data.time)
         return self._observed(), self._figures()
 
@@ -236,21 +237,25 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         corners = corners_of(things, poses)
         centre = self._arena.centre_of_mass_m * (1.0, 1.0, 0.0)
         frame = np.concatenate([corners, centre + FRAME_M])
-        x, height = self._step_at
-        step = None if height == 0.0 else pose_at(np.eye(3), np.array([x + STEP_M[0], 0.0, height - STEP_M[2]]))
-        picture = self._renderer.picture([*poses, step], PICTURE, JUMP_VIEW, frame)
+        step = self._step
+        picture = self._renderer.picture([*poses, None if step is None else step.pose], PICTURE, JUMP_VIEW, frame)
         caption = f"{self._arena.data.time - self._begun_s:.2f} s"
         floor = with_floor(picture, aimed(frame, JUMP_VIEW, PICTURE[0] / PICTURE[1]), frame, caption)
         return np.asarray(floor.convert("RGB"))
 
+    @property
+    def _step(self) -> Obstacle | None:
+        x, height = self._step_at
+        return None if height == 0.0 else STEP.model_copy(update={"at_m": (x, 0.0), "height_mm": 1000.0 * height})
+
     @cached_property
     def _renderer(self) -> Renderer:
-        box = trimesh.creation.box(extents=2000.0 * np.array(STEP_M))
+        box = trimesh.creation.box(extents=2000.0 * np.array(STEP.half_m))
         return Renderer([*((thing.mesh, thing.colour) for thing in visuals(self.robot)), (box, (0.8, 0.8, 0.78))])
 
     def _arena_of(self, number: int) -> Arena:
         if number not in self._arenas:
-            self._arenas[number] = Arena(self._robots[number], half_step_m=STEP_M)
+            self._arenas[number] = Arena(self._robots[number], obstacles=(STEP,))
         return self._arenas[number]
 
     def _observed(self) -> Array:

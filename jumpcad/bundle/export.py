@@ -31,6 +31,7 @@ from jumpcad.exporters.animation import animated
 from jumpcad.exporters.glb import write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
@@ -115,7 +116,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     return files.items()
 
 
-def report_page(robot: Robot, files: Iterable[str] = (), series: Series | None = None) -> str:
+def report_page(robot: Robot, files: Iterable[str] = (), series: Series | Trip | None = None) -> str:
     """Return report.html alone, with links to `files` relative to it; it shows recorded jumps in a row if given."""
     return _page(robot, headline(robot, True), renders(robot), write_glb(robot), files, uncertainty_of(robot), series)
 
@@ -127,7 +128,7 @@ def _page(
     glb: bytes | None,
     files: Iterable[str],
     sure: Uncertainty | None,
-    series: Series | None = None,
+    series: Series | Trip | None = None,
 ) -> str:
     pictures = {name: seen[name] for name in RENDERS if name in seen}
     return write_report(robot, pictures, jump, glb, tuple(files), sure if jump.verdict == "jump" else None, series)

@@ -23,6 +23,7 @@ from jumpcad.files.names import Name
 from jumpcad.files.rendering import fill
 from jumpcad.files.templates import templates_folder
 from jumpcad.findings import errors
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
@@ -70,7 +71,7 @@ def write_report(
     glb: bytes | None = None,
     files: Iterable[str] = (),
     sure: Uncertainty | None = None,
-    series: Series | None = None,
+    series: Series | Trip | None = None,
 ) -> str:
     """Return the page.
 

@@ -1,11 +1,14 @@
 """`jumpcad report`: a page with a robot's motion, limits and parts, or a page on a study."""
 
 import os
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, status
 from jumpcad.cli.subjects import (
     RowOption,
@@ -18,6 +21,11 @@ from jumpcad.cli.subjects import (
 )
 from jumpcad.cli.verdict import warn_of_no_jump
 from jumpcad.errors import JumpcadError, without_controls
+
+if TYPE_CHECKING:
+    from jumpcad.landing.course import Trip
+    from jumpcad.landing.series import Series
+    from jumpcad.robot.robot import Robot
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -32,16 +40,18 @@ def report(
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,
+    to: ToOption = None,
+    course: CourseOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
     if subject.endswith(STUDY) and not os.path.isdir(subject):
-        if row:
-            raise JumpcadError(f"--jumps {row}: {subject} is a study, which does not jump; leave it out")
+        if given := next((name for name, value in {"jumps": row, "to": to, "course": course}.items() if value), ""):
+            raise JumpcadError(f"--{given}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
-        written = _robot_page(subject, output, workshop, row, force)
+        written = _robot_page(subject, output, workshop, partial(recorded, row=row, to=to, course=course), force)
     if as_json:
         print_json({"file": str(written)})
     else:
@@ -64,12 +74,14 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     return page
 
 
-def _robot_page(subject: str, output: Path | None, workshop: str | None, row: int | None, force: bool) -> Path:
+def _robot_page(
+    subject: str, output: Path | None, workshop: str | None, series: "Callable[[Robot], Series | Trip | None]",
+    force: bool,
+) -> Path:  # fmt: skip
     """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
-    from jumpcad.landing.series import jumps
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     note_template(subject)
@@ -82,8 +94,7 @@ def _robot_page(subject: str, output: Path | None, workshop: str | None, row: in
     with status(f"building {subject} …"):
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
-        series = jumps(robot, row, record=True) if row else None
-        text = report_page(robot, bundle.files if bundle else (), series)
+        text = report_page(robot, bundle.files if bundle else (), series(robot))
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:
