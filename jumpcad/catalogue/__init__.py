@@ -6,7 +6,7 @@ from jumpcad.catalogue.bars import LegBar
 from jumpcad.catalogue.boards import Board
 from jumpcad.catalogue.cage_rods import CageRod
 from jumpcad.catalogue.electrical import Battery, Component, ElectricalParts, Kit, Motor, Travel
-from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
+from jumpcad.catalogue.mechanical import Bearing, ORing, Pad, StockSpring
 from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Standoff, Washer, Wire, load_catalogue
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "LegBar",
     "Motor",
     "Nut",
+    "ORing",
     "OwnParts",
     "Pad",
     "PartsByName",

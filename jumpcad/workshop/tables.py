@@ -174,6 +174,20 @@ class CageTable(TomlTable):
     bar_mm: Annotated[float, Field(ge=4, le=10)]
 
 
+class SteeringTable(TomlTable):
+    """The wheel under the tail that turns the robot while it crouches: a printed one with an `o-ring`, or "none".
+
+    What is 0 is found: the wheel's radius with its ring, how far below the feet's plane it reaches in the loaded pose
+    (`dip_mm`), and how far it is behind the leg's axle, along the ground.
+    """
+
+    wheel: Literal["none", "o-ring"]
+    motor: Name
+    radius_mm: Annotated[float, Field(ge=0, le=30)]
+    dip_mm: Annotated[float, Field(ge=0, le=10)]
+    behind_mm: Annotated[float, Field(ge=0, le=120)]
+
+
 class Seats(TomlTable):
     """How exactly the sensor sits over its track, where the electronics lie, and what holds them.
 

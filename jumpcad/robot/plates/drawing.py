@@ -17,6 +17,8 @@ from jumpcad.robot.layout import Layout
 from jumpcad.robot.plates.engraving import ENGRAVING_MM, letters_on
 from jumpcad.robot.plates.outline import blank_of, outline, pin_hole, tray_slots
 from jumpcad.robot.sensor.drawing import plate_opening, plate_pad
+from jumpcad.robot.steering.drawing import tail_slot
+from jumpcad.robot.steering.place import Steering
 from jumpcad.robot.stop.drawing import stop_slot
 from jumpcad.robot.train.motor_socket import ear_places, motor_box, socket_outline
 from jumpcad.solids.outline import Region, hole, rectangle, ring, union
@@ -82,6 +84,7 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     cut += [pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
     cut += [horn_openings(layout, holes)] if layout.of(Cage) else []
+    cut += [tail_slot(layout, play)] if layout.of(Steering) else []
     return union(cut)
 
 

@@ -1,0 +1,222 @@
+"""The steering wheel: what it does to a crouching robot, and where it touches (mm, N, N·m, °)."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.drive.motor import EMPTY_SHARE, free_speed_rad_s
+from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
+from jumpcad.mechanism.linkage import toe_tip_mm
+from jumpcad.mechanism.mass import MassProperties, combined
+from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot.robot import Robot, decided_once
+from jumpcad.robot.steering.place import LEAST_MM, Steering
+from jumpcad.transforms import Array, chained, direction, in_metres
+
+TURN_DEG = 90.0
+"""Turn whose energy is a figure."""
+ROUGHEST = 1.2
+"""Largest friction of rubber on a floor; judgement: on dry concrete up to 1.0."""
+GRIP = 1.5
+"""Least grip of the wheel over what it needs; judgement: a dusty floor grips it less than the toe."""
+LOADED = 0.03
+"""Least share of the weight on front eye, wheel and toe; judgement."""
+GIVEN = 0.2
+"""Largest share of the springs' energy that is given before the wheel is in the air; judgement: the foot stands still
+until then."""
+ABOVE_MM = 0.5
+"""Least height of the wheel above the feet's plane from then on; judgement, as of the body."""
+POSITIONS = 200
+BASIS = {
+    "steering_touch": Basis(
+        f"dip - miss ≥ {LEAST_MM:g} mm; dip of the wheel's rim below the feet's plane, springs loaded; miss = rise of "
+        "the wheel where the motor stops at the sensor's earliest, + rise for the lever's bending F·L²/(3·E·I), + "
+        "safety.room_reserve_mm",
+        "geometry; bending: Shigley, table A-9; limit: simulated, at 0.5 mm a soft floor begins to let it slip",
+    ),
+    "steering_stands": Basis(
+        f"least share of the weight on front eye, wheel and the toe to which it leans ≥ {100.0 * LOADED:g} %; it leans "
+        "by dip·(eye to toe)/(eye to wheel)/(half width of the toes)",
+        "statics of three supports; limit: judgement",
+    ),
+    "steering_air": Basis(
+        f"share of the springs' energy given until the wheel is above the feet's plane ≤ {100.0 * GIVEN:g} %, the foot "
+        f"flat; 100 % where it comes nearer than {ABOVE_MM:g} mm again up to the rest stop",
+        "geometry; limit: judgement",
+    ),
+    "steering_torque": Basis(
+        f"{ROUGHEST:g}·W·R ≤ min(motor's torque_max_nm, {EMPTY_SHARE:g}·T_stall) on an empty battery (N·m), W the "
+        "wheel's load: no floor asks for more, since it slips there",
+        f"friction; {ROUGHEST:g}: judgement",
+    ),
+    "steering_grip": Basis(
+        f"W·lever/(T·d + E·r) ≥ {GRIP:g}; loads W, T, E of wheel, toe and front eye, d from the eye to the toe, r half "
+        "width of the nose: on any floor the wheel then grips and toe and nose slide",
+        "dry friction, the same at all three; limit: judgement",
+    ),
+    "steering_voltage": Basis("an empty battery's mean voltage ≥ lowest voltage of the motor (V)", "data sheet"),
+}
+NO_WHEEL = ('steering.wheel = "none"',)
+
+
+@dataclass(frozen=True)
+class Steers:
+    """What the wheel does on the workshop's floor with a battery of nominal voltage.
+
+    Loads are of front eye, wheel and toe (3,), in N; `lean_deg` is how far the robot leans towards that toe.
+    `need_nm` is the wheel's torque, `allowed_nm` the motor's, `stall_nm` and `free_rad_s` are its line of torque and
+    speed.
+    """
+
+    loads_n: Array
+    lean_deg: float
+    grip: float
+    need_nm: float
+    allowed_nm: float
+    stall_nm: float
+    free_rad_s: float
+    empty_nm: float
+    empty_v: float
+    current_a: float
+    volts: float
+    boards_w: float
+    turn_per_rev_deg: float
+    margin_mm: float
+
+    @property
+    def speed_rad_s(self) -> float:
+        """The turning wheel's speed; 0 where the floor stalls it."""
+        return self.free_rad_s * max(0.0, 1.0 - self.need_nm / self.stall_nm)
+
+    @property
+    def turn_rate_deg_s(self) -> float:
+        """Rate of the robot's turn."""
+        return self.turn_per_rev_deg * self.speed_rad_s / (2.0 * math.pi)
+
+    @property
+    def turn_energy_j(self) -> float:
+        """Electrical energy of a turn by 90°, motor and boards; infinite where the floor stalls it."""
+        power_w = self.volts * self.current_a + self.boards_w
+        return power_w * TURN_DEG / self.turn_rate_deg_s if self.turn_rate_deg_s > 0.0 else math.inf
+
+    @property
+    def figures(self) -> dict[str, float]:
+        """Its figures by name."""
+        return {
+            "turn_per_rev_deg": self.turn_per_rev_deg,
+            "turn_rate_deg_s": self.turn_rate_deg_s,
+            "steering_margin_mm": self.margin_mm,
+            "turn_energy_j": self.turn_energy_j,
+        }
+
+
+@decided_once
+def steers(robot: Robot) -> Steers:
+    """Return what a robot's wheel does; it has one."""
+    place, layout, supply = robot.layout.of(Steering), robot.layout, robot.supply
+    assert place is not None
+    com_mm, height_mm = _centre_mm(robot, place)
+    tip_x, half_width = float(toe_tip_mm(layout.design)[0]), layout.toe_half_width_mm
+    behind = layout.design.l4_mm - tip_x  # of the toes' tips, from the front eye
+    middle = float(place.T_body_axle[1, 3])
+    to_com = place.lever_mm - com_mm[0]
+    line = middle * to_com / place.lever_mm  # of eye and wheel, beside the centre of mass
+    side = 1.0 if com_mm[1] >= line else -1.0
+    lean = place.dip_mm * behind / place.lever_mm / half_width
+    at_toe = half_width - side * middle * behind / place.lever_mm
+    toe = (abs(com_mm[1] - line) + height_mm * lean) / at_toe
+    wheel = (to_com - toe * behind) / place.lever_mm
+    loads = robot.mass_kg * GRAVITY_M_S2 * np.array([1.0 - toe - wheel, wheel, toe])
+    slides = loads[2] * math.hypot(behind, half_width) + loads[0] * layout.lateral.lug_left[1]
+    need_n = robot.workshop.ground.foot_friction * slides / place.lever_mm
+    motor = place.motor
+    most = motor.torque_max_nm or robot.workshop.safety.motor_torque_max_nm
+    # a wheel that is blocked slips, so that its gears do not limit the voltage
+    driven, empty = (supply.driven(motor, volts, math.inf) for volts in (supply.nominal_v, supply.empty_v))
+    need = need_n * place.radius_mm / 1000.0
+    rise = (driven.stall_current_a - driven.no_load_current_a) / driven.stall_torque_nm
+    return Steers(
+        loads, math.degrees(lean), float(loads[1] * place.lever_mm / slides), need, most, driven.stall_torque_nm,
+        free_speed_rad_s(driven), min(most, EMPTY_SHARE * empty.stall_torque_nm), empty.voltage_v,
+        driven.no_load_current_a + rise * need, supply.nominal_v, supply.boards_w, place.turn_per_rev_deg,
+        place.dip_mm - place.miss_mm,
+    )  # fmt: skip
+
+
+def _centre_mm(robot: Robot, place: Steering) -> tuple[Array, float]:
+    """Return the loaded robot's centre of mass, (2,) from the wheel forwards and to the left, and above the ground."""
+    poses = body_poses(robot, 1.0)
+    whole = combined(
+        MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2).placed(poses[name])
+        for name, body in robot.bodies.items()
+    )
+    wheel = chained(poses["body"], in_metres(place.T_body_axle))[:3, 3]
+    return 1000.0 * np.array([whole.com_m[0] - wheel[0], whole.com_m[1]]), 1000.0 * float(whole.com_m[2])
+
+
+def steering_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield the limits of a wheel; nothing without one."""
+    place = robot.layout.of(Steering)
+    if place is None:
+        return
+    found = steers(robot)
+    yield at_least(
+        "steering_touch", found.margin_mm, LEAST_MM, "mm",
+        f"the wheel reaches {place.dip_mm:.1f} mm below the feet's plane with loaded springs, and cam, lever and print "
+        f"may miss {place.miss_mm:.1f} mm; {LEAST_MM:g} mm must be left",
+        higher("steering.dip_mm"),
+    )  # fmt: skip
+    shares = 100.0 * found.loads_n / found.loads_n.sum()
+    yield at_least(
+        "steering_stands", float(shares.min()), 100.0 * LOADED, "%",
+        f"on its wheel it leans by {found.lean_deg:.1f}°; front eye, wheel and toe bear {shares[0]:.0f}, "
+        f"{shares[1]:.0f} and {shares[2]:.0f} % of the weight; {100.0 * LOADED:g} % are needed at least",
+        higher("steering.behind_mm", "body.toe_half_width_mm"),
+    )  # fmt: skip
+    yield _air(robot, place)
+    wheel_n = float(found.loads_n[1])
+    most = ROUGHEST * wheel_n * place.radius_mm / 1000.0
+    yield at_most(
+        "steering_torque", most, found.empty_nm, "N·m",
+        f"a wheel that slips on the roughest floor needs {1000.0 * most:.1f} mN·m; {place.motor.name} may give "
+        f"{1000.0 * found.empty_nm:.1f} on an empty battery, and this floor needs {1000.0 * found.need_nm:.1f}",
+        choose("a stronger", "steering.motor") + lower("steering.radius_mm"),
+    )  # fmt: skip
+    yield at_least(
+        "steering_grip", found.grip, GRIP, "",
+        f"the wheel grips with {found.grip:.1f} times the force at which toe and nose slide; {GRIP:g} are needed",
+        lower("steering.dip_mm") + higher("steering.behind_mm"),
+    )  # fmt: skip
+    least = place.motor.range_v[0]
+    yield at_least(
+        "steering_voltage", found.empty_v, least, "V",
+        f"{place.motor.name} gets {found.empty_v:.2f} V from an empty battery and needs {least:g}",
+        choose("another", "steering.motor", "bought.battery"),
+    )  # fmt: skip
+
+
+def _air(robot: Robot, place: Steering) -> Finding:
+    """Return whether the wheel leaves the feet's plane early in the push-off, and for good."""
+    linkage, spring = robot.linkage, robot.spring
+    leg = np.linspace(linkage.travel_rad[0], robot.layout.stop.reach_rad, POSITIONS)
+    pose = linkage.pose(leg)
+    up = direction(pose.foot_rad - math.pi / 2.0)
+    middle, axle = place.T_body_axle[[0, 2], 3], place.T_body_axle[[0, 2], 0]
+    height = np.einsum("ni,ni->n", middle - pose.ankle_mm, up) + robot.layout.sections.ground_mm
+    leans = up @ axle
+    lowest = height - place.radius_mm * np.sqrt(1.0 - leans**2) - place.half_width_mm * np.abs(leans)
+    leaves = int(np.argmax(lowest > 0.0))
+    whole = spring.stored_j(-spring.wind_rad) - spring.stored_j(0.0)
+    given = 1.0 - (spring.stored_j(float(leg[leaves])) - spring.stored_j(0.0)) / whole
+    stays = bool((lowest[leaves:] > 0.0).all() and lowest[int(POSITIONS * GIVEN) :].min() >= ABOVE_MM)
+    share = 100.0 * given if stays else 100.0
+    again = "" if stays else f"; later it comes within {lowest[int(POSITIONS * GIVEN) :].min():.1f} mm of it"
+    return at_most(
+        "steering_air", share, 100.0 * GIVEN, "%",
+        f"the springs give {100.0 * given:.1f} % of their energy before the wheel is above the feet's plane; "
+        f"{100.0 * GIVEN:g} % are allowed{again}",
+        lower("steering.dip_mm") + higher("steering.behind_mm"),
+    )  # fmt: skip
