@@ -17,6 +17,8 @@ from jumpcad.landing.obstacles import Obstacle, Place
 from jumpcad.landing.series import Hop, Recorder, Row, hop
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import Steers, steers
+from jumpcad.robot.steering.place import Steering
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import Trajectory
 from jumpcad.transforms import Array
@@ -277,15 +279,8 @@ def _within_half_turn(angle_deg: float) -> float:
     return (angle_deg + 180.0) % 360.0 - 180.0
 
 
-@dataclass(frozen=True)
-class Steers:
-    """What its wheel does: turn of the robot for one of the wheel (°), its speed, energy of a turn by 90°."""
-
-    turn_per_rev_deg: float
-    speed_rad_s: float
-    turn_energy_j: float
-
-
 def require_steering(robot: Robot) -> Steers:
     """Return what a robot's wheel does; raise `JumpcadError` if it has none."""
-    raise JumpcadError(f'{robot.name} has no steering: set [steering] wheel = "o-ring" in its workshop')
+    if robot.layout.of(Steering) is None:
+        raise JumpcadError(f'{robot.name} has no steering: set [steering] wheel = "o-ring" in its workshop')
+    return steers(robot)
