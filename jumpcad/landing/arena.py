@@ -12,10 +12,12 @@ import numpy as np
 
 from jumpcad.collision.hulls import CAGE
 from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
+from jumpcad.exporters.steered import WHEEL
 from jumpcad.landing.obstacles import BOX, Obstacle
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.ballistics import drag_m_s2, drag_per_m
@@ -77,14 +79,18 @@ class Arena:
         self.model = model = mujoco.MjModel.from_xml_string(text)
         self.data = mujoco.MjData(model)
         model.opt.gravity[2] = -settings.gravity_m_s2
-        self.bodies = {name: int(model.body(name).id) for name in BODY_NAMES}
+        wheel = () if robot.layout.of(Steering) is None else (WHEEL,)
+        self.bodies = {name: int(model.body(name).id) for name in (*BODY_NAMES, *wheel)}
         joint = model.joint(robot.spring.joint)
         self._leg, self._leg_rate = int(joint.qposadr[0]), int(joint.dofadr[0])
         self._latch = int(model.equality("latch").id)
         self._free = model.joint("free")
         rubs = coefficients(robot, settings)
-        of = {body: rubs.contact(robot.bodies[name].surface) for name, body in self.bodies.items()}
-        self._friction = np.array([of.get(int(body), rubs.contact("foot")) for body in model.geom_bodyid])
+        of = {
+            body: rubs.contact("foot" if name == WHEEL else robot.bodies[name].surface)
+            for name, body in self.bodies.items()
+        }
+        self._friction = np.array([of.get(int(body), 0.0) for body in model.geom_bodyid])
         self.watch: Callable[[], None] | None = None
         """Called after each of MuJoCo's own steps, where something must see them all."""
         self.rods = np.array([model.geom(index).name.startswith(CAGE) for index in range(model.ngeom)])

@@ -16,7 +16,6 @@ from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.electronics.wired import TIE, TIE_G
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.steering.place import (
-    BASE_MM,
     GROOVE_PLAY_MM,
     PLAY_MM,
     SLOT_EDGE_MM,
@@ -40,6 +39,8 @@ HUB_WALL_MM = 2.0
 """Of the wheel's hub round the shaft; judgement: four lines of a 0.4 mm nozzle."""
 HELD = 0.7
 """Height of the walls beside the motor over its own; judgement: it snaps in from below and cannot roll out."""
+ROOT = 0.35
+"""How far a plate's tail reaches from the leg's axle to the cam's; judgement: it is as wide there as at its tabs."""
 NOTCH_MM = 1.0
 """Play of the gearhead's boss in the wall before it; judgement."""
 BACKWARDS = np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]])
@@ -91,15 +92,15 @@ def _mount(place: Steering, layout: Layout, holes: HoleSizes) -> Stack:
     boss = rectangle((2.0 * WALL_MM, place.motor.boss_mm + 2.0 * NOTCH_MM), (begin, 0.0))
     leads = rectangle((3.0 * WALL_MM, 2.0 * across - 2.0 * WALL_MM), (end, 0.0))
     walls = around - union([cavity, boss, leads])
-    return Stack.of([(0.0, BASE_MM, base), (BASE_MM, BASE_MM + 2.0 * HELD * up, walls)])
+    return Stack.of([(0.0, place.base_mm, base), (place.base_mm, place.base_mm + 2.0 * HELD * up, walls)])
 
 
 def tail(layout: Layout) -> Region:
-    """Return what the mount adds to the outline of both body plates: from the leg's axle down to its tabs."""
+    """Return what the mount adds to the outline of both body plates: from leg's and cam's axle down to its tabs."""
     if (place := layout.of(Steering)) is None:
         return union([])
-    pad = disc(layout.axle_mm + 2.0 * PAD_WALL_MM, layout.hub_mm)
-    return hull([pad, _slot(place, 2.0 * SLOT_EDGE_MM)])
+    pads = [layout.hub_mm, layout.hub_mm + ROOT * (layout.cam_axis_mm - layout.hub_mm)]
+    return hull([*(disc(layout.axle_mm + 2.0 * PAD_WALL_MM, pad) for pad in pads), _slot(place, 2.0 * SLOT_EDGE_MM)])
 
 
 def tail_slot(layout: Layout, play_mm: float) -> Region:
@@ -109,7 +110,7 @@ def tail_slot(layout: Layout, play_mm: float) -> Region:
 
 
 def _slot(place: Steering, more_mm: float) -> Region:
-    flat = rectangle((TAB_MM + more_mm, BASE_MM + more_mm), (0.0, 0.0), more_mm / 4.0)
+    flat = rectangle((TAB_MM + more_mm, place.base_mm + more_mm), (0.0, 0.0), more_mm / 4.0)
     return flat.rotate(place.turn_deg).translate(tuple(place.tab_mm))
 
 

@@ -6,14 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.dimensions import GRAVITY_M_S2
+from jumpcad.dimensions import GRAVITY_M_S2, PAD_WALL_MM
 from jumpcad.drive.motor import EMPTY_SHARE, free_speed_rad_s
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.poses import body_poses
+from jumpcad.robot.cage.strength import FALLS
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.robot.steering.place import LEAST_MM, Steering
+from jumpcad.robot.steering.place import LEAST_MM, PLAY_MM, SLOT_EDGE_MM, TAB_MM, WALL_MM, Steering
 from jumpcad.transforms import Array, chained, direction, in_metres
 
 TURN_DEG = 90.0
@@ -30,6 +31,11 @@ until then."""
 ABOVE_MM = 0.5
 """Least height of the wheel above the feet's plane from then on; judgement, as of the body."""
 POSITIONS = 200
+WIDE_MM = TAB_MM + 2.0 * SLOT_EDGE_MM
+"""Width of the mount's base and of the plates' tails."""
+SHARE = 0.65
+"""Of the falling energy, that a blow on the wheel brings; measured: 40 landings of `best-jumper` with a wheel, which
+land on its tail."""
 BASIS = {
     "steering_touch": Basis(
         f"dip - miss ≥ {LEAST_MM:g} mm; dip of the wheel's rim below the feet's plane, springs loaded; miss = rise of "
@@ -56,6 +62,17 @@ BASIS = {
         f"W·lever/(T·d + E·r) ≥ {GRIP:g}; loads W, T, E of wheel, toe and front eye, d from the eye to the toe, r half "
         "width of the nose: on any floor the wheel then grips and toe and nose slide",
         "dry friction, the same at all three; limit: judgement",
+    ),
+    "steering_mount": Basis(
+        "√(σ² + 3·τ²) ≤ strength_in_plane_mpa/s of the body (MPa); σ = 3·F·x/(w·h²), x from the mount's walls to a "
+        f"plate, τ = 1.5·F·y/(w·h²), y from the wheel to the tabs' middle, w = {WIDE_MM:g} mm, h = steering.base_mm; "
+        f"F = m·g + {SHARE:g}·2·U/3/safety.landing_stop_mm",
+        "bending and torsion: Shigley 3-10, 3-12; share: the worst of 40 simulated landings",
+    ),
+    "steering_tail": Basis(
+        "3·F·x/(w·t²) ≤ strength_in_plane_mpa/s of the body (MPa), two tails of the plates that bend sideways: F "
+        "friction of a blow as in `steering_mount`, x from around the leg's axle to the tabs, w as there",
+        "cantilever: Roark, ch. 8",
     ),
     "steering_voltage": Basis("an empty battery's mean voltage ≥ lowest voltage of the motor (V)", "data sheet"),
 }
@@ -190,6 +207,7 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
         f"the wheel grips with {found.grip:.1f} times the force at which toe and nose slide; {GRIP:g} are needed",
         lower("steering.dip_mm") + higher("steering.behind_mm"),
     )  # fmt: skip
+    yield from _blow(robot, place)
     least = place.motor.range_v[0]
     yield at_least(
         "steering_voltage", found.empty_v, least, "V",
@@ -219,4 +237,28 @@ def _air(robot: Robot, place: Steering) -> Finding:
         f"the springs give {100.0 * given:.1f} % of their energy before the wheel is above the feet's plane; "
         f"{100.0 * GIVEN:g} % are allowed{again}",
         lower("steering.dip_mm") + higher("steering.behind_mm"),
+    )  # fmt: skip
+
+
+def _blow(robot: Robot, place: Steering) -> Iterator[Finding]:
+    """Yield what mount and plates bear of a landing on the wheel."""
+    layout, shop = robot.layout, robot.workshop
+    energy_nmm = 1000.0 * SHARE * FALLS * robot.spring.energy_j
+    force = robot.mass_kg * GRAVITY_M_S2 + energy_nmm / shop.safety.landing_stop_mm
+    allowed = shop.material("body").strength_in_plane_mpa / shop.safety.printed_factor
+    beside = float(np.ptp(layout.lateral.inside)) / 2.0 - place.half_motor_mm[0] - PLAY_MM - WALL_MM
+    bends, twists = 3.0 * force * beside, 1.5 * force * sum(place.cradle_x_mm) / 2.0
+    stress = math.hypot(bends, math.sqrt(3.0) * twists) / (WIDE_MM * place.base_mm**2)
+    yield at_most(
+        "steering_mount", stress, allowed, "MPa",
+        f"the mount under {force:.0f} N of a landing on the wheel: {stress:.1f} of {allowed:.1f} MPa",
+        higher("steering.base_mm") + choose("a stronger", "roles.body"),
+    )  # fmt: skip
+    plate = float(np.ptp(layout.lateral.left_plate))
+    long = float(np.linalg.norm(place.tab_mm - layout.hub_mm)) - layout.axle_mm / 2.0 - PAD_WALL_MM
+    stress = 3.0 * shop.ground.foot_friction * force * long / (WIDE_MM * plate**2)
+    yield at_most(
+        "steering_tail", stress, allowed, "MPa",
+        f"the plates' tails, {long:.0f} mm long, where the wheel lands sideways: {stress:.1f} of {allowed:.1f} MPa",
+        ("let it land on grass, a mat or a carpet", *higher("body.plate_mm")), "warning",
     )  # fmt: skip

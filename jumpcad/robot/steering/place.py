@@ -41,12 +41,10 @@ FRONT_MM = 0.6
 """Between wheel and mount; judgement."""
 WALL_MM, PLAY_MM = 1.6, 0.15
 """Walls of the mount around the motor, and play beside it, which its tie takes up; judgement."""
-BASE_MM = 2.4
-"""Thickness of the mount's base; judgement: twelve layers of 0.2 mm."""
-TAB_MM = 14.0
+TAB_MM = 10.0
 """Length of its tab in either plate; judgement: it bears the wheel's moment."""
-SLOT_EDGE_MM = 2.5
-"""Material of the plates around the tab; judgement, as around the trays'."""
+SLOT_EDGE_MM = 3.0
+"""Material of the plates around the tab; judgement: a little more than around the trays'."""
 TIE_MM = 1.1
 """Thickness of the cable tie below the motor."""
 FREE_MM = 1.0
@@ -71,6 +69,8 @@ class Steering(ByValue):
         How much less that may be where the motor stops at its earliest, the lever bends and parts are printed too high.
     behind_mm, lever_mm
         From the leg's axle and from the front eye back to the wheel, along the ground.
+    base_mm
+        Thickness of the mount's base.
     """
 
     motor: Motor
@@ -81,6 +81,7 @@ class Steering(ByValue):
     miss_mm: float
     behind_mm: float
     lever_mm: float
+    base_mm: float
 
     @property
     def groove_mm(self) -> float:
@@ -112,7 +113,7 @@ class Steering(ByValue):
     def base_z_mm(self) -> tuple[float, float]:
         """Lower and upper face of the mount's base."""
         low = self.half_motor_mm[1] + PLAY_MM
-        return low, low + BASE_MM
+        return low, low + self.base_mm
 
     @property
     def cradle_x_mm(self) -> tuple[float, float]:
@@ -170,7 +171,7 @@ def steering_place(layout: Layout, workshop: Workshop) -> Steering | None:
         centre = ground[number] + (radius[number] - dip[number]) * up
         place = Steering(
             motor, _ring(workshop, float(radius[number])), _frame(layout, foot, centre), float(radius[number]),
-            float(dip[number]), float(miss[number]), behind, float((eye - centre) @ along),
+            float(dip[number]), float(miss[number]), behind, float((eye - centre) @ along), table.base_mm,
         )  # fmt: skip
         room = min(toes + behind - place.half_width_mm, _free_mm(layout, place, in_the_way))
         if room >= FREE_MM:
