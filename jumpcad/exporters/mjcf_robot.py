@@ -21,6 +21,8 @@ from jumpcad.files.rendering import fill, render
 from jumpcad.mechanism.model import BODY, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
@@ -65,6 +67,7 @@ def readme(robot: Robot) -> str:
         "newest": NEWEST_MUJOCO,
         "foot": rubs.contact("foot"),
         "body": rubs.contact("body"),
+        "steer": steers(robot) if robot.layout.of(Steering) else None,
     }
     return render("mjcf/README.md.j2", values)
 

@@ -123,7 +123,8 @@ class BoughtParts(ElectricalParts):
     `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
     it names itself override the kit's. An empty name leaves a part out, such as a
     regulator; a robot without switch or plug is refused. `pins` are pins of the controller for `motor`,
-    `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
+    `sleep`, `ready` (the sensor), `battery` (its voltage), `steer` and `steer_reverse` where the program's choice does
+    not suit.
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
@@ -134,7 +135,9 @@ class BoughtParts(ElectricalParts):
     kit: OptionalName
     leg_bearing: OptionalName
     roller: Name
-    pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
+    pins: dict[Literal["motor", "sleep", "ready", "battery", "steer", "steer_reverse"], Name] = Field(
+        default_factory=dict
+    )
     spring: OptionalName
     leg: OptionalName
     axle_mm: Length

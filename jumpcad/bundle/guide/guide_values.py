@@ -26,6 +26,7 @@ from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.wire import ORDERED
+from jumpcad.robot.steering.drawing import steering_words
 from jumpcad.simulation import headline
 from jumpcad.steps.assembly_order import ORDER
 from jumpcad.steps.assembly_steps import Step
@@ -173,6 +174,7 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad),
         "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
+        "steering": steering_words(robot),
     }
 
 

@@ -5,6 +5,7 @@ floor bend the base along its layers. The motor lies below the base between wall
 """
 
 from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 
@@ -13,8 +14,10 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement
 from jumpcad.parts.purchased import BoughtPart
+from jumpcad.robot.electronics.leads import lead_lengths
 from jumpcad.robot.electronics.wired import TIE, TIE_G
 from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.place import (
     GROOVE_PLAY_MM,
     PLAY_MM,
@@ -134,6 +137,23 @@ def steering_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart
     slabs = [(-wide, -narrow, less), (-narrow, narrow, ring(outer, inner)), (narrow, wide, less)]
     yield _bought("steering_ring", rubber.description, slabs, _along(place, 0.0), rubber.mass_g)
     yield _tie(place, sum(place.cradle_x_mm) / 2.0)
+
+
+def steering_words(robot: Robot) -> dict[str, Any] | None:
+    """Return what the guide says of the wheel: articles and sizes (mm); None without one."""
+    place, motor = robot.layout.of(Steering), robot.workshop.steering.motor
+    if place is None:
+        return None
+    leads = [mm for *_, end, _, mm in lead_lengths(robot.layout, robot.wiring) if end.part == "steering motor"]
+    return {
+        "motor": motor,
+        "ring": place.ring.description,
+        "shaft_mm": place.motor.shaft_mm,
+        "flat_mm": place.motor.shaft_flat_mm,
+        "wire_mm": max(leads),
+        "gap_mm": place.cradle_x_mm[0] - place.half_width_mm,
+        "tread_mm": place.ring.section_mm - TREAD_MM,
+    }
 
 
 def _tie(place: Steering, x_mm: float) -> BoughtPart:

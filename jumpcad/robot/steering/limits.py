@@ -74,6 +74,7 @@ BASIS = {
         "friction of a blow as in `steering_mount`, x from around the leg's axle to the tabs, w as there",
         "cantilever: Roark, ch. 8",
     ),
+    "steering_pins": Basis("pins of the controller for both directions, and a second bridge of the driver", "net list"),
     "steering_voltage": Basis("an empty battery's mean voltage ≥ lowest voltage of the motor (V)", "data sheet"),
 }
 NO_WHEEL = ('steering.wheel = "none"',)
@@ -208,6 +209,14 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
         lower("steering.dip_mm") + higher("steering.behind_mm"),
     )  # fmt: skip
     yield from _blow(robot, place)
+    wired = {"steering+", "steering-"} <= {net.name for net in robot.wiring.nets}
+    yield at_least(
+        "steering_pins", float(wired), 1.0, "",
+        "the driver's second bridge turns the wheel"
+        if wired
+        else "the driver has no second bridge for the wheel, or the controller no two pins that are free for it",
+        choose("another", "bought.driver", "bought.controller"),
+    )  # fmt: skip
     least = place.motor.range_v[0]
     yield at_least(
         "steering_voltage", found.empty_v, least, "V",
