@@ -226,7 +226,10 @@ class Wheel:
             self._until_ms, self.said = 0, "the turn was stopped"
 
     def step(self, now_ms, battery_v=None):
-        """Return the shares of PWM of left and right turn; the motor gets the same voltage from any battery."""
+        """Return the shares of PWM of left and right turn; the motor gets the same voltage from any battery.
+
+        In the pauses of PWM the current flows on against the battery: the mean voltage is 2*share - 1 of it.
+        """
         if not self.turning:
             return 0.0, 0.0
         numbers = self.winder.numbers
@@ -236,5 +239,5 @@ class Wheel:
             self._until_ms, self.said = 0, "turned"
         if not self.turning:
             return 0.0, 0.0
-        share = 1.0 if battery_v is None else min(1.0, numbers.STEER_V / battery_v)
+        share = min(1.0, 0.5 + 0.5 * numbers.STEER_V / (battery_v or numbers.BATTERY_MIN_V))
         return (share, 0.0) if self._left else (0.0, share)

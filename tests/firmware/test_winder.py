@@ -341,7 +341,10 @@ def test_a_row_that_is_ended_lets_nothing_begin() -> None:
 
 
 def turned_deg(world: World, degrees: int, seconds: float) -> float:
-    """Turn for a time; return by how much a robot turns whose wheel turns as fast as its voltage says (°)."""
+    """Turn for a time; return by how much a robot turns whose wheel turns as fast as its voltage says (°).
+
+    The driver's mean voltage is 2·share - 1 of the battery's (TI DRV8833, fast decay).
+    """
     wheel, angle = WINDER.Wheel(world.winder), 0.0
     wheel.turn(round(world.now_ms), degrees)
     end = world.now_ms + 1000.0 * seconds
@@ -349,7 +352,8 @@ def turned_deg(world: World, degrees: int, seconds: float) -> float:
         before = world.now_ms
         world.step()
         left, right = wheel.step(round(world.now_ms), world.battery_v)
-        angle += (left - right) * (world.battery_v or 0.0) / NUMBERS.STEER_V * (world.now_ms - before)
+        mean_v = (2.0 * max(left, right) - 1.0) * (world.battery_v or 0.0) if left or right else 0.0
+        angle += math.copysign(mean_v / NUMBERS.STEER_V * (world.now_ms - before), left - right)
     assert not wheel.turning
     return angle / NUMBERS.STEER_MS_PER_DEG
 
