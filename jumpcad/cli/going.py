@@ -26,7 +26,6 @@ ToOption = Annotated[
 CourseOption = Annotated[
     Path | None, typer.Option("--course", help="Steer along the points of a TOML file, over bars and steps (MuJoCo).")
 ]
-FARTHEST_M = 1000.0
 
 
 def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...] | Course | None":
@@ -37,7 +36,7 @@ def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...]
     JumpcadError
         If both are given, the point is none, or the file cannot be read.
     """
-    from jumpcad.landing.course import Course
+    from jumpcad.landing.course import FARTHEST_M, Course
 
     if course is not None:
         if to is not None:

@@ -21,8 +21,10 @@ from jumpcad.robot.steering.limits import Steers, steers
 from jumpcad.robot.steering.place import Steering
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import Trajectory
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, pose_about_z
 
+FARTHEST_M = 1000.0
+"""Of a point."""
 WITHIN_M = 0.35
 """A robot is at a point from this distance on: half a jump, which has but one length."""
 HEADING_NOISE_DEG = 3.0
@@ -196,8 +198,7 @@ def trips(
     for number in range(tries):
         rng = np.random.default_rng([seed, number])
         turned = 0.0 if isinstance(to, Sequence | Course) else rng.uniform(-math.pi, math.pi)
-        points = [np.array([[math.cos(turned), -math.sin(turned)], [math.sin(turned), math.cos(turned)]]) @ point
-                  for point in course.points_m]  # fmt: skip
+        points = [pose_about_z(turned)[:2, :2] @ point for point in course.points_m]
         arena.stand_on(scattered_floor(rng))
         recorder = Recorder(arena, record and number == 0)
         yield _trip(arena, points, course, rng, recorder, heading_noise_deg, step_m)

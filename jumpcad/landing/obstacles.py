@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import Field
 
 from jumpcad.files import Record
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array, chained, pose_about_z, pose_at
 
 Kind = Literal["bar", "step", "wall"]
 Place = Annotated[
@@ -49,7 +49,7 @@ class Obstacle(Record):
     @property
     def pose(self) -> Array:
         """Pose (4, 4) of its box's middle (m)."""
-        angle, (length, _, high) = math.radians(self.facing_deg), self.half_m
-        cos, sin = math.cos(angle), math.sin(angle)
-        turn = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-        return pose_at(turn, [self.at_m[0] + length * cos, self.at_m[1] + length * sin, self.height_mm / 1000.0 - high])
+        length, _, high = self.half_m
+        front = pose_about_z(math.radians(self.facing_deg))
+        front[:3, 3] = *self.at_m, self.height_mm / 1000.0 - high
+        return chained(front, pose_at(np.eye(3), (length, 0.0, 0.0)))
