@@ -15,7 +15,7 @@ from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism
 from jumpcad.mechanism.poses import ReleasePose
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.drawing import WHEEL_PARTS
-from jumpcad.robot.steering.limits import Steers, steers
+from jumpcad.robot.steering.limits import steers
 from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import Visual
 from jumpcad.transforms import chained, in_metres, rotation_about_y
@@ -40,9 +40,9 @@ def steer_drive(mechanism: Mechanism) -> SteerDrive | None:
     """Return the drive of a robot's wheel on a battery of nominal voltage; None without one."""
     if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
         return None
-    found: Steers = steers(mechanism)
+    found = steers(mechanism)
     slope = found.stall_nm / found.free_rad_s
-    return SteerDrive(found.allowed_nm, found.free_rad_s, slope, place.half_width_mm / 1000.0)
+    return SteerDrive(found.gears_nm, found.free_rad_s, slope, place.half_width_mm / 1000.0)
 
 
 def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[AnyMechanism, Sequence[Visual]]:
@@ -64,7 +64,7 @@ def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[An
     bodies[WHEEL] = Body(WHEEL, seen.mass_kg, seen.com_m, seen.inertia_kg_m2, (touches,))
     drive = steers(mechanism)
     tilt = -np.radians(place.turn_deg)
-    joint = Joint(STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.allowed_nm,
+    joint = Joint(STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm,
                   drive.free_rad_s, axis=AXLE)  # fmt: skip
     moved = [
         replace(one, body=WHEEL, T_body_mesh=chained(T_wheel_body, one.T_body_mesh)) if one.name in WHEEL_PARTS else one

@@ -40,6 +40,8 @@ WHEEL_PARTS = ("steering_wheel", "steering_ring", "steering_shaft")
 """What turns with the wheel."""
 HUB_WALL_MM = 2.0
 """Of the wheel's hub round the shaft; judgement: four lines of a 0.4 mm nozzle."""
+WEB_MM = 1.6
+"""Thickness of the wheel between hub and groove; judgement: eight layers of 0.2 mm."""
 HELD = 0.7
 """Height of the walls beside the motor over its own; judgement: it snaps in from below and cannot roll out."""
 ROOT = 0.35
@@ -68,14 +70,17 @@ def _wheel(place: Steering, holes: HoleSizes) -> Stack:
     motor, width = place.motor, 2.0 * place.half_width_mm
     bore = ribbed_d_bore(motor.shaft_mm, motor.shaft_flat_mm, holes)
     flange = disc(place.groove_mm + 2.0 * TREAD_MM) - bore
-    groove = (width - place.ring.section_mm - GROOVE_PLAY_MM) / 2.0
+    hub = motor.shaft_mm + 2.0 * (holes.fits.press_mm + HUB_WALL_MM)
+    low = (width - place.ring.section_mm - GROOVE_PLAY_MM) / 2.0
+    web = ring(place.groove_mm - 2.0 * HUB_WALL_MM, hub) if place.groove_mm > hub + 4.0 * HUB_WALL_MM else union([])
     slabs = [
-        (0.0, groove, flange),
-        (groove, width - groove, disc(place.groove_mm) - bore),
-        (width - groove, width, flange),
+        (0.0, low, flange),
+        (low, WEB_MM, disc(place.groove_mm) - bore),
+        (WEB_MM, width - low, disc(place.groove_mm) - bore - web),
+        (width - low, width, flange - web),
     ]
     if (behind := place.shaft_mm - place.half_width_mm) > 0.0:
-        slabs.append((width, width + behind, disc(motor.shaft_mm + 2.0 * (holes.fits.press_mm + HUB_WALL_MM)) - bore))
+        slabs.append((width, width + behind, disc(hub) - bore))
     return Stack.of(slabs)
 
 

@@ -1,4 +1,4 @@
-"""The steering wheel: what it does to a crouching robot, and where it touches (mm, N, N·m, °)."""
+"""The steering wheel: what it does to a crouching robot, where it touches, and landings on it (mm, N, N·m, °)."""
 
 import math
 from collections.abc import Iterator
@@ -21,46 +21,41 @@ TURN_DEG = 90.0
 """Turn whose energy is a figure."""
 ROUGHEST = 1.2
 """Largest friction of rubber on a floor; judgement: on dry concrete up to 1.0."""
-GRIP = 1.5
-"""Least grip of the wheel over what it needs; judgement: a dusty floor grips it less than the toe."""
-LOADED = 0.03
-"""Least share of the weight on front eye, wheel and toe; judgement."""
-GIVEN = 0.2
-"""Largest share of the springs' energy that is given before the wheel is in the air; judgement: the foot stands still
-until then."""
-ABOVE_MM = 0.5
-"""Least height of the wheel above the feet's plane from then on; judgement, as of the body."""
-POSITIONS = 200
+GRIP, LOADED = 1.5, 3.0
+"""Least grip of the wheel over what it needs, and least share of the weight (%) on each support; judgement."""
+GIVEN, POSITIONS = 20.0, 200
+"""Largest share of the springs' energy (%) that is given before the wheel is in the air; judgement: the foot stands
+still until then. Leg angles at which that is looked at."""
 WIDE_MM = TAB_MM + 2.0 * SLOT_EDGE_MM
 """Width of the mount's base and of the plates' tails."""
 SHARE = 0.65
-"""Of the falling energy, that a blow on the wheel brings; measured: 40 landings of `best-jumper` with a wheel, which
-land on its tail."""
+"""Of the falling energy, that a blow on the wheel brings; the worst of 40 simulated landings of `best-jumper` with a
+wheel, which lands on its tail."""
 BASIS = {
     "steering_touch": Basis(
         f"dip - miss ≥ {LEAST_MM:g} mm; dip of the wheel's rim below the feet's plane, springs loaded; miss = rise of "
         "the wheel where the motor stops at the sensor's earliest, + rise for the lever's bending F·L²/(3·E·I), + "
         "safety.room_reserve_mm",
-        "geometry; bending: Shigley, table A-9; limit: simulated, at 0.5 mm a soft floor begins to let it slip",
+        f"geometry; Shigley, table A-9; limit: simulated, at {LEAST_MM:g} mm a soft floor begins to let it slip",
     ),
     "steering_stands": Basis(
-        f"least share of the weight on front eye, wheel and the toe to which it leans ≥ {100.0 * LOADED:g} %; it leans "
-        "by dip·(eye to toe)/(eye to wheel)/(half width of the toes)",
+        f"least share of the weight on front eye, wheel and the toe to which it leans ≥ {LOADED:g} %; it leans by "
+        "dip·(eye to toe)/(eye to wheel)/(half width of the toes)",
         "statics of three supports; limit: judgement",
     ),
     "steering_air": Basis(
-        f"share of the springs' energy given until the wheel is above the feet's plane ≤ {100.0 * GIVEN:g} %, the foot "
-        f"flat; 100 % where it comes nearer than {ABOVE_MM:g} mm again up to the rest stop",
+        f"share of the springs' energy given until the wheel is above the feet's plane ≤ {GIVEN:g} %, the foot flat; "
+        "100 % where it comes below it again up to the rest stop",
         "geometry; limit: judgement",
     ),
     "steering_torque": Basis(
-        f"{ROUGHEST:g}·W·R ≤ min(motor's torque_max_nm, {EMPTY_SHARE:g}·T_stall) on an empty battery (N·m), W the "
+        f"{ROUGHEST:g}·W·R ≤ min(torque_max_nm of the motor, {EMPTY_SHARE:g}·T_stall) on an empty battery (N·m), W the "
         "wheel's load: no floor asks for more, since it slips there",
         f"friction; {ROUGHEST:g}: judgement",
     ),
     "steering_grip": Basis(
         f"W·lever/(T·d + E·r) ≥ {GRIP:g}; loads W, T, E of wheel, toe and front eye, d from the eye to the toe, r half "
-        "width of the nose: on any floor the wheel then grips and toe and nose slide",
+        "width of the nose: on any floor the wheel grips, and toe and nose slide",
         "dry friction, the same at all three; limit: judgement",
     ),
     "steering_mount": Basis(
@@ -74,60 +69,46 @@ BASIS = {
         "friction of a blow as in `steering_mount`, x from around the leg's axle to the tabs, w as there",
         "cantilever: Roark, ch. 8",
     ),
-    "steering_pins": Basis("pins of the controller for both directions, and a second bridge of the driver", "net list"),
-    "steering_voltage": Basis("an empty battery's mean voltage ≥ lowest voltage of the motor (V)", "data sheet"),
+    "steering_supply": Basis(
+        "an empty battery's voltage ≥ lowest voltage of the motor (V); 0 without two free pins of the controller and a "
+        "second bridge of the driver",
+        "data sheet; net list",
+    ),
 }
-NO_WHEEL = ('steering.wheel = "none"',)
 
 
 @dataclass(frozen=True)
 class Steers:
     """What the wheel does on the workshop's floor with a battery of nominal voltage.
 
-    Loads are of front eye, wheel and toe (3,), in N; `lean_deg` is how far the robot leans towards that toe.
-    `need_nm` is the wheel's torque, `allowed_nm` the motor's, `stall_nm` and `free_rad_s` are its line of torque and
-    speed.
+    `loads_n` (3,) are those of front eye, wheel and toe, `lean_deg` how far the robot leans to that toe, `grip` the
+    wheel's over what it needs, `need_nm` its torque. Of the motor, `gears_nm` is what its gears bear, `empty_nm` what
+    it may give on an empty battery of `empty_v`, `stall_nm` and `free_rad_s` are its line of torque and speed.
     """
 
     loads_n: Array
     lean_deg: float
     grip: float
     need_nm: float
-    allowed_nm: float
-    stall_nm: float
-    free_rad_s: float
+    gears_nm: float
     empty_nm: float
     empty_v: float
-    current_a: float
-    volts: float
-    boards_w: float
-    turn_per_rev_deg: float
+    stall_nm: float
+    free_rad_s: float
+    power_w: float
     margin_mm: float
-
-    @property
-    def speed_rad_s(self) -> float:
-        """The turning wheel's speed; 0 where the floor stalls it."""
-        return self.free_rad_s * max(0.0, 1.0 - self.need_nm / self.stall_nm)
-
-    @property
-    def turn_rate_deg_s(self) -> float:
-        """Rate of the robot's turn."""
-        return self.turn_per_rev_deg * self.speed_rad_s / (2.0 * math.pi)
-
-    @property
-    def turn_energy_j(self) -> float:
-        """Electrical energy of a turn by 90°, motor and boards; infinite where the floor stalls it."""
-        power_w = self.volts * self.current_a + self.boards_w
-        return power_w * TURN_DEG / self.turn_rate_deg_s if self.turn_rate_deg_s > 0.0 else math.inf
+    turn_per_rev_deg: float
 
     @property
     def figures(self) -> dict[str, float]:
-        """Its figures by name."""
+        """Its figures by name; the energy of a turn is infinite where the floor stalls the motor."""
+        speed_rad_s = self.free_rad_s * max(0.0, 1.0 - self.need_nm / self.stall_nm)
+        rate = self.turn_per_rev_deg * speed_rad_s / (2.0 * math.pi)
         return {
             "turn_per_rev_deg": self.turn_per_rev_deg,
-            "turn_rate_deg_s": self.turn_rate_deg_s,
+            "turn_rate_deg_s": rate,
             "steering_margin_mm": self.margin_mm,
-            "turn_energy_j": self.turn_energy_j,
+            "turn_energy_j": self.power_w * TURN_DEG / rate if rate > 0.0 else math.inf,
         }
 
 
@@ -136,51 +117,45 @@ def steers(robot: Robot) -> Steers:
     """Return what a robot's wheel does; it has one."""
     place, layout, supply = robot.layout.of(Steering), robot.layout, robot.supply
     assert place is not None
-    com_mm, height_mm = _centre_mm(robot, place)
-    tip_x, half_width = float(toe_tip_mm(layout.design)[0]), layout.toe_half_width_mm
-    behind = layout.design.l4_mm - tip_x  # of the toes' tips, from the front eye
-    middle = float(place.T_body_axle[1, 3])
-    to_com = place.lever_mm - com_mm[0]
-    line = middle * to_com / place.lever_mm  # of eye and wheel, beside the centre of mass
-    side = 1.0 if com_mm[1] >= line else -1.0
-    lean = place.dip_mm * behind / place.lever_mm / half_width
-    at_toe = half_width - side * middle * behind / place.lever_mm
-    toe = (abs(com_mm[1] - line) + height_mm * lean) / at_toe
-    wheel = (to_com - toe * behind) / place.lever_mm
+    ahead, aside, height = _centre_mm(robot, place)
+    lever, half_width, middle = place.lever_mm, layout.toe_half_width_mm, float(place.T_body_axle[1, 3])
+    toe_x = layout.design.l4_mm - float(toe_tip_mm(layout.design)[0])  # behind the front eye
+    off = aside - middle * (lever - ahead) / lever  # of the line from eye to wheel
+    lean = place.dip_mm * toe_x / lever / half_width
+    toe = (abs(off) + height * lean) / (half_width - math.copysign(middle, off) * toe_x / lever)
+    wheel = (lever - ahead - toe * toe_x) / lever
     loads = robot.mass_kg * GRAVITY_M_S2 * np.array([1.0 - toe - wheel, wheel, toe])
-    slides = loads[2] * math.hypot(behind, half_width) + loads[0] * layout.lateral.lug_left[1]
-    need_n = robot.workshop.ground.foot_friction * slides / place.lever_mm
-    motor = place.motor
-    most = motor.torque_max_nm or robot.workshop.safety.motor_torque_max_nm
+    slides = float(loads[2]) * math.hypot(toe_x, half_width) + float(loads[0]) * layout.lateral.lug_left[1]
+    need = robot.workshop.ground.foot_friction * slides / lever * place.radius_mm / 1000.0
+    gears = place.motor.torque_max_nm or robot.workshop.safety.motor_torque_max_nm
     # a wheel that is blocked slips, so that its gears do not limit the voltage
-    driven, empty = (supply.driven(motor, volts, math.inf) for volts in (supply.nominal_v, supply.empty_v))
-    need = need_n * place.radius_mm / 1000.0
+    driven, empty = (supply.driven(place.motor, volts, math.inf) for volts in (supply.nominal_v, supply.empty_v))
     rise = (driven.stall_current_a - driven.no_load_current_a) / driven.stall_torque_nm
     return Steers(
-        loads, math.degrees(lean), float(loads[1] * place.lever_mm / slides), need, most, driven.stall_torque_nm,
-        free_speed_rad_s(driven), min(most, EMPTY_SHARE * empty.stall_torque_nm), empty.voltage_v,
-        driven.no_load_current_a + rise * need, supply.nominal_v, supply.boards_w, place.turn_per_rev_deg,
-        place.dip_mm - place.miss_mm,
+        loads, math.degrees(lean), float(loads[1]) * lever / slides, need, gears,
+        min(gears, EMPTY_SHARE * empty.stall_torque_nm), empty.voltage_v, driven.stall_torque_nm,
+        free_speed_rad_s(driven), supply.nominal_v * (driven.no_load_current_a + rise * need) + supply.boards_w,
+        place.dip_mm - place.miss_mm, place.turn_per_rev_deg,
     )  # fmt: skip
 
 
-def _centre_mm(robot: Robot, place: Steering) -> tuple[Array, float]:
-    """Return the loaded robot's centre of mass, (2,) from the wheel forwards and to the left, and above the ground."""
+def _centre_mm(robot: Robot, place: Steering) -> tuple[float, float, float]:
+    """Return the loaded robot's centre of mass: ahead of the wheel, to the left, above the ground."""
     poses = body_poses(robot, 1.0)
     whole = combined(
         MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2).placed(poses[name])
         for name, body in robot.bodies.items()
     )
     wheel = chained(poses["body"], in_metres(place.T_body_axle))[:3, 3]
-    return 1000.0 * np.array([whole.com_m[0] - wheel[0], whole.com_m[1]]), 1000.0 * float(whole.com_m[2])
+    ahead, aside, height = 1000.0 * (whole.com_m - wheel * (1.0, 0.0, 0.0))
+    return float(ahead), float(aside), float(height)
 
 
 def steering_findings(robot: Robot) -> Iterator[Finding]:
     """Yield the limits of a wheel; nothing without one."""
-    place = robot.layout.of(Steering)
-    if place is None:
+    if (place := robot.layout.of(Steering)) is None:
         return
-    found = steers(robot)
+    found, motor = steers(robot), place.motor
     yield at_least(
         "steering_touch", found.margin_mm, LEAST_MM, "mm",
         f"the wheel reaches {place.dip_mm:.1f} mm below the feet's plane with loaded springs, and cam, lever and print "
@@ -189,18 +164,17 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
     )  # fmt: skip
     shares = 100.0 * found.loads_n / found.loads_n.sum()
     yield at_least(
-        "steering_stands", float(shares.min()), 100.0 * LOADED, "%",
+        "steering_stands", float(shares.min()), LOADED, "%",
         f"on its wheel it leans by {found.lean_deg:.1f}°; front eye, wheel and toe bear {shares[0]:.0f}, "
-        f"{shares[1]:.0f} and {shares[2]:.0f} % of the weight; {100.0 * LOADED:g} % are needed at least",
+        f"{shares[1]:.0f} and {shares[2]:.0f} % of the weight; {LOADED:g} % are needed",
         higher("steering.behind_mm", "body.toe_half_width_mm"),
     )  # fmt: skip
     yield _air(robot, place)
-    wheel_n = float(found.loads_n[1])
-    most = ROUGHEST * wheel_n * place.radius_mm / 1000.0
+    most = ROUGHEST * float(found.loads_n[1]) * place.radius_mm / 1000.0
     yield at_most(
         "steering_torque", most, found.empty_nm, "N·m",
-        f"a wheel that slips on the roughest floor needs {1000.0 * most:.1f} mN·m; {place.motor.name} may give "
-        f"{1000.0 * found.empty_nm:.1f} on an empty battery, and this floor needs {1000.0 * found.need_nm:.1f}",
+        f"a wheel that slips on the roughest floor needs {1000.0 * most:.1f} mN·m, on this one "
+        f"{1000.0 * found.need_nm:.1f}; {motor.name} may give {1000.0 * found.empty_nm:.1f} on an empty battery",
         choose("a stronger", "steering.motor") + lower("steering.radius_mm"),
     )  # fmt: skip
     yield at_least(
@@ -211,17 +185,11 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
     yield from _blow(robot, place)
     wired = {"steering+", "steering-"} <= {net.name for net in robot.wiring.nets}
     yield at_least(
-        "steering_pins", float(wired), 1.0, "",
-        "the driver's second bridge turns the wheel"
+        "steering_supply", found.empty_v if wired else 0.0, motor.range_v[0], "V",
+        f"{motor.name} gets {found.empty_v:.2f} V from an empty battery and needs {motor.range_v[0]:g}"
         if wired
-        else "the driver has no second bridge for the wheel, or the controller no two pins that are free for it",
-        choose("another", "bought.driver", "bought.controller"),
-    )  # fmt: skip
-    least = place.motor.range_v[0]
-    yield at_least(
-        "steering_voltage", found.empty_v, least, "V",
-        f"{place.motor.name} gets {found.empty_v:.2f} V from an empty battery and needs {least:g}",
-        choose("another", "steering.motor", "bought.battery"),
+        else "the wheel's motor needs a second bridge of the driver and two free pins of the controller",
+        choose("another", "steering.motor", "bought.driver", "bought.controller"),
     )  # fmt: skip
 
 
@@ -231,20 +199,15 @@ def _air(robot: Robot, place: Steering) -> Finding:
     leg = np.linspace(linkage.travel_rad[0], robot.layout.stop.reach_rad, POSITIONS)
     pose = linkage.pose(leg)
     up = direction(pose.foot_rad - math.pi / 2.0)
-    middle, axle = place.T_body_axle[[0, 2], 3], place.T_body_axle[[0, 2], 0]
-    height = np.einsum("ni,ni->n", middle - pose.ankle_mm, up) + robot.layout.sections.ground_mm
-    leans = up @ axle
+    height = np.einsum("ni,ni->n", place.T_body_axle[[0, 2], 3] - pose.ankle_mm, up) + robot.layout.sections.ground_mm
+    leans = up @ place.T_body_axle[[0, 2], 0]
     lowest = height - place.radius_mm * np.sqrt(1.0 - leans**2) - place.half_width_mm * np.abs(leans)
-    leaves = int(np.argmax(lowest > 0.0))
-    whole = spring.stored_j(-spring.wind_rad) - spring.stored_j(0.0)
-    given = 1.0 - (spring.stored_j(float(leg[leaves])) - spring.stored_j(0.0)) / whole
-    stays = bool((lowest[leaves:] > 0.0).all() and lowest[int(POSITIONS * GIVEN) :].min() >= ABOVE_MM)
-    share = 100.0 * given if stays else 100.0
-    again = "" if stays else f"; later it comes within {lowest[int(POSITIONS * GIVEN) :].min():.1f} mm of it"
+    given = np.array([100.0 * (1.0 - max(spring.stored_j(one), 0.0) / spring.energy_j) for one in leg.tolist()])
+    share, later = float(given[np.argmax(lowest > 0.0)]), float(lowest[given > GIVEN].min())
     return at_most(
-        "steering_air", share, 100.0 * GIVEN, "%",
-        f"the springs give {100.0 * given:.1f} % of their energy before the wheel is above the feet's plane; "
-        f"{100.0 * GIVEN:g} % are allowed{again}",
+        "steering_air", share if later > 0.0 else 100.0, GIVEN, "%",
+        f"the springs give {share:.1f} % of their energy before the wheel is above the feet's plane; {GIVEN:g} % are "
+        f"allowed, from when on it stays {later:.1f} mm above it",
         lower("steering.dip_mm") + higher("steering.behind_mm"),
     )  # fmt: skip
 

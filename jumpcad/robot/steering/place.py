@@ -15,7 +15,7 @@ import numpy as np
 from jumpcad.catalogue import Motor, ORing
 from jumpcad.dimensions import GAP_MM, TOE_TIP_WIDTH_MM
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import choose, higher, lower
+from jumpcad.findings import choose, higher
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.robot.cage.place import LAP_HEIGHT_MM, Cage
 from jumpcad.robot.layout import Layout, moving_obstacles
@@ -43,7 +43,7 @@ WALL_MM, PLAY_MM = 1.6, 0.15
 """Walls of the mount around the motor, and play beside it, which its tie takes up; judgement."""
 TAB_MM = 10.0
 """Length of its tab in either plate; judgement: it bears the wheel's moment."""
-SLOT_EDGE_MM = 3.0
+SLOT_EDGE_MM = 2.7
 """Material of the plates around the tab; judgement: a little more than around the trays'."""
 TIE_MM = 1.1
 """Thickness of the cable tie below the motor."""
@@ -155,68 +155,55 @@ def steering_place(layout: Layout, workshop: Workshop) -> Steering | None:
     pose = layout.linkage.pose([layout.linkage.travel_rad[0]])
     foot = float(pose.foot_rad[0])
     along, up = direction(foot), direction(foot - math.pi / 2.0)
-    eye, sole = pose.front_eye_mm[0], pose.ankle_mm[0] - layout.sections.ground_mm * up
-    steps = np.arange(0.0, FARTHEST_MM, STEP_MM) if table.behind_mm == 0.0 else np.array([table.behind_mm])
-    below = layout.hub_mm - ((layout.hub_mm - sole) @ up) * up  # on the ground, below the leg's axle
-    ground = below - steps[:, None] * along
-    miss = lift_mm(layout, ground, early_rad(layout)) + bent_rad(layout, workshop) * _rise_mm(layout, ground)
-    miss += workshop.safety.room_reserve_mm
-    dip = np.full_like(miss, table.dip_mm) if table.dip_mm else np.ceil(10.0 * (miss + LEAST_MM)) / 10.0
-    least = np.ceil(dip + min(motor.width_mm, motor.height_mm) / 2.0 + TIE_MM + FREE_MM)
-    radius = np.full_like(miss, table.radius_mm) if table.radius_mm else np.maximum(RADIUS_MM, least)
+    below = layout.hub_mm - _height_mm(layout, layout.hub_mm, layout.linkage.travel_rad[0]) * up  # the leg's axle
     toes = float((pose.ankle_mm[0] - below) @ along + toe_tip_mm(layout.design)[0]) - TOE_TIP_WIDTH_MM / 2.0
-    in_the_way = _in_the_way(layout)
-    free = -math.inf
-    for number, behind in enumerate(steps.tolist()):
-        centre = ground[number] + (radius[number] - dip[number]) * up
-        place = Steering(
-            motor, _ring(workshop, float(radius[number])), _frame(layout, foot, centre), float(radius[number]),
-            float(dip[number]), float(miss[number]), behind, float((eye - centre) @ along), table.base_mm,
-        )  # fmt: skip
-        room = min(toes + behind - place.half_width_mm, _free_mm(layout, place, in_the_way))
+    in_the_way, free = _in_the_way(layout), -math.inf
+    half = min(motor.width_mm, motor.height_mm) / 2.0 + TIE_MM
+    for behind in [table.behind_mm] if table.behind_mm else np.arange(0.0, FARTHEST_MM, STEP_MM).tolist():
+        ground = below - behind * along
+        miss = _miss_mm(layout, workshop, ground)
+        dip = table.dip_mm or math.ceil(10.0 * (miss + LEAST_MM)) / 10.0
+        radius = table.radius_mm or max(RADIUS_MM, math.ceil(dip + half + FREE_MM))
+        frame = pose_about_y(foot, ground + (radius - dip) * up)
+        frame[1, 3] = sum(layout.lateral.inside) / 2.0
+        lever = float((pose.front_eye_mm[0] - ground) @ along)
+        place = Steering(motor, _ring(workshop, radius), frame, radius, dip, miss, behind, lever, table.base_mm)
+        beyond = toes + behind - place.half_width_mm
+        room = min(beyond, radius - dip - half, _free_mm(layout, place, in_the_way) if beyond > 0.0 else beyond)
         if room >= FREE_MM:
             return place
         free = max(free, room)
-    where = (
-        f"steering.behind_mm = {steps[0]:g}" if table.behind_mm else f"up to {FARTHEST_MM:g} mm behind the leg's axle"
-    )
+    where = f"{table.behind_mm:g} mm" if table.behind_mm else f"up to {FARTHEST_MM:g} mm"
     raise CannotBuildError(
-        f"steering.wheel finds no room behind the toes, {where}: wheel, motor and mount come as near as {free:.1f} mm "
-        f"to what moves, the rest stop or the cage, and {FREE_MM:g} mm are needed",
+        f"steering.wheel finds no room behind the toes, {where} behind the leg's axle: wheel, motor and mount come as "
+        f"near as {free:.1f} mm to what moves, the rest stop, the cage or the ground, and {FREE_MM:g} mm are needed",
         "steering_room", free - FREE_MM,
-        ways=choose("a smaller", "steering.motor") + lower("steering.radius_mm") + higher("compression_ratio"),
+        ways=(*choose("a smaller", "steering.motor"), *higher("compression_ratio"), "leave [steering]'s sizes 0"),
     )  # fmt: skip
 
 
-def early_rad(layout: Layout) -> float:
-    """Return the leg's angle where the sensor stops the motor at its earliest."""
+def _miss_mm(layout: Layout, workshop: Workshop, point_mm: Array) -> float:
+    """Return how much higher a point (2,) of the body may be than with loaded springs.
+
+    The sensor stops the motor early, the lever, a cantilever, bends by F·L²/(3·E·I) (Shigley, table A-9), and prints
+    are thicker than drawn.
+    """
     assert layout.sensor is not None
-    cam, ready = layout.drive.cam, layout.sensor.ready_rad + layout.sensor.scatter_rad
-    return -float(cam.wind_rad(np.array([cam.law.lift_rad - ready]))[0])
+    cam, sections, design = layout.drive.cam, layout.sections, layout.design
+    early = cam.law.lift_rad - layout.sensor.ready_rad - layout.sensor.scatter_rad
+    torque = 1000.0 * design.stiffness_nm_per_rad * (design.compression_rad + layout.drive.spring.preload_rad)
+    section = sections.thickness_mm * sections.lever_root_mm**3 / 12.0
+    bent = torque * cam.lever_length_mm / (3.0 * workshop.material("links").modulus_mpa * section)
+    high = _height_mm(layout, point_mm, bent - float(cam.wind_rad(np.array([early]))[0]))
+    low = _height_mm(layout, point_mm, layout.linkage.travel_rad[0])
+    return high - low + workshop.safety.room_reserve_mm
 
 
-def bent_rad(layout: Layout, workshop: Workshop) -> float:
-    """Return by how much the lever, a cantilever, bends under the loaded springs: F·L²/(3·E·I) (Shigley, table A-9)."""
-    spring, design, height = layout.drive.spring, layout.design, layout.sections.lever_root_mm
-    torque = 1000.0 * design.stiffness_nm_per_rad * (design.compression_rad + spring.preload_rad)
-    section = layout.sections.thickness_mm * height**3 / 12.0
-    return torque * layout.drive.cam.lever_length_mm / (3.0 * workshop.material("links").modulus_mpa * section)
-
-
-def lift_mm(layout: Layout, points_mm: Array, leg_rad: float) -> Array:
-    """Return how much higher above the ground points (n, 2) of the body are than with loaded springs."""
-    return _height_mm(layout, points_mm, leg_rad) - _height_mm(layout, points_mm, layout.linkage.travel_rad[0])
-
-
-def _height_mm(layout: Layout, points_mm: Array, leg_rad: float) -> Array:
+def _height_mm(layout: Layout, point_mm: Array, leg_rad: float) -> float:
+    """Return the height above the ground of a point (2,) of the body."""
     pose = layout.linkage.pose([leg_rad])
-    up = direction(pose.foot_rad[0] - math.pi / 2.0)
-    return np.asarray((points_mm - pose.ankle_mm[0]) @ up) + layout.sections.ground_mm
-
-
-def _rise_mm(layout: Layout, points_mm: Array, step_rad: float = 0.01) -> Array:
-    """Return by how much points (n, 2) rise for each radian of the leg, springs loaded."""
-    return lift_mm(layout, points_mm, layout.linkage.travel_rad[0] + step_rad) / step_rad
+    up = direction(float(pose.foot_rad[0]) - math.pi / 2.0)
+    return float((point_mm - pose.ankle_mm[0]) @ up) + layout.sections.ground_mm
 
 
 def _ring(workshop: Workshop, radius_mm: float) -> ORing:
@@ -230,12 +217,6 @@ def _ring(workshop: Workshop, radius_mm: float) -> ORing:
             "steering_ring", radius_mm - least, ways=higher("steering.radius_mm"),
         )  # fmt: skip
     return max(fitting, key=lambda one: one.inside_mm)
-
-
-def _frame(layout: Layout, foot_rad: float, centre_mm: Array) -> Array:
-    pose = pose_about_y(foot_rad, centre_mm)
-    pose[1, 3] = sum(layout.lateral.inside) / 2.0
-    return pose
 
 
 def _in_the_way(layout: Layout) -> Callable[[float], list[Obstacle]]:
