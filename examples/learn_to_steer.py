@@ -18,7 +18,8 @@ import numpy as np
 import jumpcad
 from jumpcad.workshop import load_workshop, varied
 
-DESIGN, CHANGED = "best-jumper", {"steering.wheel": "o-ring", "cage.rear_behind_mm": 40.0}
+DESIGN = "best-jumper"
+CHANGED: dict[str, float | str] = {"steering.wheel": "o-ring", "cage.rear_behind_mm": 40.0}
 AWAY_M, BEST = 1.3, 0.25
 WAIT, WIND, RELEASE = range(3)
 STAND, LEFT, RIGHT = range(3)

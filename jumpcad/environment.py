@@ -179,7 +179,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         self._scattered, self._episode_s, self._step_s = made > 0, episode_s, step_s
         self.render_mode = render_mode
         low, high = np.array([limits for _, *limits in OBSERVATIONS.values()], dtype=np.float32).T
-        self._wheel_rad_s = steers(self.robot).speed_rad_s if self.robot.layout.of(Steering) else None
+        self._wheel_rad_s = steers(self.robot).free_rad_s if self.robot.layout.of(Steering) else None
         self._target_m, self._picture = tuple(target_m), (picture[0], picture[1])
         least = np.array([0.0, -1.0][: 1 + self.steers], dtype=np.float32)
         torque = gymnasium.spaces.Box(least, np.ones_like(least))

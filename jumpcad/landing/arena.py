@@ -17,6 +17,7 @@ from jumpcad.landing.obstacles import BOX, Obstacle
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
 from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
@@ -30,6 +31,8 @@ ROD_S = 0.02
 """Contacts of the cage's rods are softer than this, and all others harder."""
 TARGETS = 200
 """Steps in which the leg is wound."""
+TURN_LOOKS = 8
+"""How often a robot that steers is looked at."""
 LOOK_S = 0.005
 """How often a landing robot is looked at."""
 STILL_M_S, STILL_RAD_S, STILL_S = 0.02, 0.3, 0.2
@@ -164,11 +167,14 @@ class Arena:
             self.step(time_s / TARGETS, quiet=True)
             look()
 
-    def steer(self, turns: float, rad_s: float) -> None:
-        """Turn the steering wheel, the robot to the left where positive, and let it stand."""
-        self.data.actuator("steer").ctrl = math.copysign(rad_s, turns)
-        self.step(2.0 * math.pi * abs(turns) / rad_s, quiet=True)
-        self.data.actuator("steer").ctrl = 0.0
+    def steer(self, angle_deg: float, look: Callable[[], None] = lambda: None) -> None:
+        """Turn by the wheel, to the left where positive, by time, as the firmware does."""
+        does, drive = steers(self.robot), self.data.actuator("steer")
+        drive.ctrl = math.copysign(does.free_rad_s, angle_deg)
+        for _ in range(TURN_LOOKS):
+            self.step(abs(angle_deg) / does.figures["turn_rate_deg_s"] / TURN_LOOKS, quiet=True)
+            look()
+        drive.ctrl = 0.0
         self.step(STILL_S, quiet=True)
 
     def release(self) -> None:

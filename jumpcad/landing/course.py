@@ -17,7 +17,7 @@ from jumpcad.landing.obstacles import Obstacle, Place
 from jumpcad.landing.series import Hop, Recorder, Row, hop
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.steering.limits import Steers, steers
+from jumpcad.robot.steering.limits import TURN_DEG, steers
 from jumpcad.robot.steering.place import Steering
 from jumpcad.settings import Settings
 from jumpcad.simulation.jump import Trajectory
@@ -33,8 +33,6 @@ STRAIGHT_DEG = 2.0
 """A turn smaller than this is not made."""
 PATIENCE, LEAST_TRIES = 3, 6
 """A try is given up after so many times the jumps of the straight way, and so many more."""
-TURNS_EACH = 8
-"""Moments of a turn that are recorded."""
 
 
 class Course(Record):
@@ -185,7 +183,10 @@ def trips(
     course = course_of(to)
     if not 0.0 <= heading_noise_deg <= 180.0:
         raise JumpcadError(f"heading_noise_deg = {heading_noise_deg:g}: must be at least 0 and at most 180")
-    require_steering(robot)
+    if robot.layout.of(Steering) is None:
+        raise JumpcadError(f'{robot.name} has no steering: set [steering] wheel = "o-ring" in its workshop')
+    if steers(robot).figures["turn_rate_deg_s"] == 0.0:
+        raise JumpcadError(f"{robot.name} does not turn: the floor stalls its wheel; choose a stronger steering.motor")
     arena = Arena(robot, settings, course.obstacles)
     arena.stand("home")
     step_m = hop(arena, np.random.default_rng(seed), Recorder(arena, False, 0)).way_m
@@ -209,7 +210,7 @@ def _trip(
     noise_deg: float, step_m: float,
 ) -> Trip:  # fmt: skip
     """Go once, in jumps that are first taken to be `step_m` long, then as long as they were."""
-    steering, train = require_steering(arena.robot), arena.robot.layout.drive.train
+    turn_j, train = steers(arena.robot).figures["turn_energy_j"] / TURN_DEG, arena.robot.layout.drive.train
     struck: set[int] = set()
 
     def watch() -> None:
@@ -245,17 +246,14 @@ def _trip(
             wanted = math.degrees(math.atan2(way[1], way[0]) - seen)
             wanted = _within_half_turn(wanted + _aside_deg(float(np.linalg.norm(way)), length, course.within_m))
             if abs(wanted) > STRAIGHT_DEG:
-                for _ in range(TURNS_EACH):
-                    turns = wanted / steering.turn_per_rev_deg / TURNS_EACH
-                    arena.steer(turns, steering.speed_rad_s)
-                    recorder("turning")
+                arena.steer(wanted, lambda: recorder("turning"))
                 turn_deg = _within_half_turn(math.degrees(arena.heading_rad - before))
 
         struck.clear()
         done = hop(arena, rng, recorder, turn)
         ways.append(done.way_m)
         at = arena.centre_of_mass_m[:2]
-        energy = train.electrical_j + abs(turn_deg) / 90.0 * steering.turn_energy_j
+        energy = train.electrical_j + abs(turn_deg) * turn_j
         place, hit = (float(at[0] - origin[0]), float(at[1] - origin[1])), tuple(sorted(one + 1 for one in struck))
         moves.append(Move(**vars(done), point=reached + 1, turn_deg=turn_deg, place_m=place, left_m=left_m(reached),
                           energy_j=energy, struck=hit))  # fmt: skip
@@ -278,10 +276,3 @@ def _aside_deg(left_m: float, step_m: float, within_m: float) -> float:
 
 def _within_half_turn(angle_deg: float) -> float:
     return (angle_deg + 180.0) % 360.0 - 180.0
-
-
-def require_steering(robot: Robot) -> Steers:
-    """Return what a robot's wheel does; raise `JumpcadError` if it has none."""
-    if robot.layout.of(Steering) is None:
-        raise JumpcadError(f'{robot.name} has no steering: set [steering] wheel = "o-ring" in its workshop')
-    return steers(robot)
