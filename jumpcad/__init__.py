@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from jumpcad.errors import JumpcadError as JumpcadError
     from jumpcad.evaluation import EvaluationResult as EvaluationResult
     from jumpcad.findings import Finding as Finding
+    from jumpcad.landing.course import go as go
     from jumpcad.landing.landing import land as land
     from jumpcad.landing.series import jumps as jumps
     from jumpcad.paper import published as published
@@ -52,6 +53,7 @@ else:
         "jumpcad.errors": "CannotBuildError JumpcadError",
         "jumpcad.evaluation": "EvaluationResult",
         "jumpcad.findings": "Finding",
+        "jumpcad.landing.course": "go",
         "jumpcad.landing.landing": "land",
         "jumpcad.landing.series": "jumps",
         "jumpcad.paper": "published",

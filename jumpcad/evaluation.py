@@ -16,6 +16,8 @@ from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Jump, Settings, simulate
 from jumpcad.simulation.engines import require_engine
@@ -59,6 +61,10 @@ FIGURES = JUMP_FIGURES | {
     "robust_touchdown_m": "touchdown that nine of ten robots as made reach, on any floor; where asked for",
     "robust_pitch_deg": "worst pitch at touchdown of robots as made, either way, on any floor; where asked for",
     "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where asked for",
+    "turn_per_rev_deg": "turn of the robot for one turn of its steering wheel; of robots with one",
+    "turn_rate_deg_s": "rate at which it turns, the battery's voltage nominal; likewise",
+    "steering_margin_mm": "how far below the feet's plane the loaded robot's wheel is at the worst; likewise",
+    "turn_energy_j": "electrical energy of a turn by 90°; likewise",
     "body_mass_kg": "mass of the body",
     "main_leg_mass_kg": "mass of the main leg",
     "front_link_mass_kg": "mass of the front link",
@@ -246,14 +252,18 @@ def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:
     train = robot.layout.drive.train
     size_m = max(robot.design.l_max_mm / 1000.0, float(extent_m(robot).max()))
     masses = {f"{name}_mass_kg": body.mass_kg for name, body in robot.bodies.items()}
-    return {
-        "body_lengths": (jump.touchdown_distance_m or 0.0) / size_m,
-        "size_m": size_m,
-        "mass_kg": robot.mass_kg,
-        "electrical_energy_j": train.electrical_j,
-        "motor_energy_j": train.motor_j,
-        "boards_energy_j": train.boards_j,
-        "winding_time_s": train.winding_s,
-        "cost_eur": bill_of_materials(robot).cost_eur or 0.0,
-        "jumps_per_charge": float(jumps_per_charge(robot)),
-    } | masses
+    return (
+        {
+            "body_lengths": (jump.touchdown_distance_m or 0.0) / size_m,
+            "size_m": size_m,
+            "mass_kg": robot.mass_kg,
+            "electrical_energy_j": train.electrical_j,
+            "motor_energy_j": train.motor_j,
+            "boards_energy_j": train.boards_j,
+            "winding_time_s": train.winding_s,
+            "cost_eur": bill_of_materials(robot).cost_eur or 0.0,
+            "jumps_per_charge": float(jumps_per_charge(robot)),
+        }
+        | masses
+        | (steers(robot).figures if robot.layout.of(Steering) else {})
+    )

@@ -12,6 +12,7 @@ from support.built import built
 import jumpcad
 from jumpcad.environment import RELEASE, WAIT, WIND
 from jumpcad.errors import JumpcadError
+from jumpcad.landing.obstacles import Obstacle
 
 gymnasium = needs.package("gymnasium")
 NAMES = list(jumpcad.JumpEnv.OBSERVATIONS)
@@ -83,7 +84,7 @@ def test_a_step_bears_what_falls_on_it() -> None:
         env.reset(seed=0)
         arena = env.unwrapped._arena
         arena.put(np.array([1.0, 0.0, 0.0, 0.0]), height + 0.01, np.zeros(3), np.zeros(3))
-        arena.put_step(-1.0, height)
+        arena.place(0, Obstacle(kind="step", at_m=(-1.0, 0.0), height_mm=1000.0 * height) if height else None)
         arena.rest()
         heights.append(float(arena.centre_of_mass_m[2]))
     assert heights[1] - heights[0] == pytest.approx(0.2, abs=0.002)

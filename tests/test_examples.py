@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from support.pictures import with_plain_figures
@@ -22,6 +23,7 @@ EXAMPLES = {
     "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
     "when_to_release": ["--episodes", "2"],
+    "remote": ["wind", "turn 30", "jump", "turn 30", "--port", "/dev/ttyACM0"],
 }
 
 
@@ -94,3 +96,25 @@ def test_a_rule_jumps_farther_than_chance(run):
     ways = dict(re.findall(r"^(\S[\w ]+?) +(-?\d+) mm in 30 s", run("when_to_release"), re.M))
     assert len(ways) == 4
     assert int(ways["at once"]) > int(ways["by chance"])
+
+
+def test_remote_sends_each_command_once_the_one_before_has_ended(run, monkeypatch: pytest.MonkeyPatch):
+    """A cable at whose end a robot answers as the firmware does; the last turn is refused, since it is not wound."""
+    answers = {
+        "wind": ["winding: winding; 0 jumps", "", "ready: keep away from the leg; 0 jumps"],
+        "turn 30": ["turning by 30 degrees, 1.5 s", "", "turned"],
+        "jump": ["releasing: releasing; 0 jumps", "idle: jump 1; 1 jumps"],
+    }
+    sent, coming = list[str](), list[str]()
+
+    def write(data: bytes) -> None:
+        assert not coming, "the last command has not ended"
+        sent.append(data.decode().strip())
+        coming.extend(["it turns only while it is wound: wind first"] if sent[-1] in sent[:-1] else answers[sent[-1]])
+
+    port = SimpleNamespace(write=write, readline=lambda: coming.pop(0).encode())
+    monkeypatch.setitem(sys.modules, "serial", SimpleNamespace(Serial=lambda *_, **__: port))
+    monkeypatch.setattr("time.sleep", lambda _: None)
+    with pytest.raises(SystemExit):
+        run("remote")
+    assert sent == EXAMPLES["remote"][:4]

@@ -27,6 +27,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.glb import animated, write_glb
 from jumpcad.exporters.registry import Exporter, Files, chosen
 from jumpcad.findings import errors
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.robot.electronics.limits import electronics_findings
 from jumpcad.robot.robot import Robot, require_name
@@ -109,7 +110,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
 
 
 def report_page(
-    robot: Robot, files: Iterable[str] = (), series: Series | None = None, steps: Sequence[str] = ()
+    robot: Robot, files: Iterable[str] = (), series: Series | Trip | None = None, steps: Sequence[str] = ()
 ) -> str:
     """Return report.html alone, with links to `files` relative to it.
 

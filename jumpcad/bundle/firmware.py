@@ -14,7 +14,7 @@ COPIED = ("main.py", "winder.py")
 
 def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and text of every file of the firmware."""
-    values = {"motor": robot.layout.drive.train.motor.name, **numbers(robot)}
+    values = {"name": robot.name, "motor": robot.layout.drive.train.motor.name, **numbers(robot)}
     for name in COPIED:
         yield f"{FOLDER}/{name}", (templates_folder() / FOLDER / name).read_text(encoding="utf-8")
     yield f"{FOLDER}/robot.py", fill(f"{FOLDER}/robot.py.j2", values)

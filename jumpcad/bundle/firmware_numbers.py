@@ -3,12 +3,15 @@
 import math
 
 from jumpcad.catalogue import Battery
+from jumpcad.drive.motor import free_speed_rad_s
 from jumpcad.electronics.nets import gpio
 from jumpcad.landing.series import LANDING_S, REST_S
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.sensor.limits import RUN_ON_S
 from jumpcad.robot.sensor.place import SensorPlace
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
 
 BUTTON_DELAY_MS = 3000
 """Time to step back after the button was pressed; judgement."""
@@ -57,6 +60,9 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "READY_LEVEL": wiring.ready_level,
         "PIN_BATTERY": pins.get("battery"),
         "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
+        "PIN_STEER_LEFT": pins.get("steer"),
+        "PIN_STEER_RIGHT": pins.get("steer_reverse"),
+        **_steering_numbers(robot),
         "PWM_HZ": PWM_HZ,
         "PWM_CAP": math.floor(1000.0 * supply.pwm(train.motor, torque_max)) / 1000.0,
         "BATTERY_DIVIDER": round(wiring.divider, 4),
@@ -77,6 +83,20 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "RIGHTS_ITSELF": robot.layout.of(Cage) is not None,
         "RAMP_MS": RAMP_MS,
         "WATCHDOG_MS": WATCHDOG_MS,
+    }
+
+
+def _steering_numbers(robot: Robot) -> dict[str, float | int | None]:
+    """Return voltage and times of the steering wheel's motor, as on an empty battery; all None without one."""
+    if (place := robot.layout.of(Steering)) is None:
+        return dict.fromkeys(("STEER_V", "STEER_MS_PER_DEG", "STEER_MAX_MS"))
+    slow, does = robot.supply.driven(place.motor, robot.supply.empty_v, math.inf), steers(robot)
+    speed = free_speed_rad_s(slow) * max(1.0 - does.need_nm / slow.stall_torque_nm, 0.1)
+    ms = float(1000.0 * 2.0 * math.pi / speed / does.turn_per_rev_deg)
+    return {
+        "STEER_V": round(slow.voltage_v, 2),
+        "STEER_MS_PER_DEG": round(ms, 1),
+        "STEER_MAX_MS": math.ceil(180.0 * ms),
     }
 
 

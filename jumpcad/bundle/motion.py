@@ -15,6 +15,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.drive.motor import lift_s
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.glb import BodyMotion
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
 from jumpcad.mechanism.poses import body_poses
@@ -27,7 +28,7 @@ WINDING_MOMENTS, DROP_MOMENTS = 49, 7
 """Number of poses of these phases."""
 SHOWN_S = {"winding": 3.0, "drop": 0.6, "push-off": 1.6, "flight": 2.4}
 """Duration of each phase in the viewer; judgement: long enough to be seen."""
-SERIES_S = {"winding": 1.6, "push-off": 0.9, "flight": 1.6, "landing": 1.3}
+SERIES_S = {"winding": 1.6, "turning": 1.2, "push-off": 0.9, "flight": 1.6, "landing": 1.3}
 """The same of each of several jumps in a row."""
 SERIES_EVERY = {"winding": 8, "flight": 2}
 """Of jumps in a row, every so many recorded moments of a phase are kept."""
@@ -73,7 +74,7 @@ def _columns(robot: Robot, moments: list[PhasePose], lengths_s: Mapping[str, flo
     }  # fmt: skip
 
 
-def series_motion(robot: Robot, series: Series) -> dict[str, Any]:
+def series_motion(robot: Robot, series: Series | Trip) -> dict[str, Any]:
     """Return the recorded motion of jumps in a row as columns for the viewer, as `motion`; `com_m` (n, 3) has x, z, y.
 
     Each phase of each jump has its own time scale; its name ends in the jump's number.
@@ -91,7 +92,7 @@ def series_motion(robot: Robot, series: Series) -> dict[str, Any]:
             continue
         poses, turned = recorded_poses(trajectory, index), 2.0 * math.pi * (int(number) - 1)
         gear = float(np.interp(_loaded(robot, poses), shares, cams)) if phase == "winding" else law.lift_rad
-        cam = gear if phase == "winding" else ahead
+        cam = gear if phase in ("winding", "turning") else ahead
         moments.append(PhasePose(name, float(trajectory.time_s[index]), poses, turned + cam, turned + gear))
     columns = _columns(robot, moments, {name: SERIES_S[name.split()[0]] for name in series.phases})
     aside = [round(_com(robot, moment)[1], POSITION_DIGITS) + 0.0 for moment in moments]

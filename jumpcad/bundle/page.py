@@ -24,6 +24,7 @@ from jumpcad.files import Record, TomlTable, find_template, template_names
 from jumpcad.files.records import Name
 from jumpcad.files.templates import fill, templates_folder
 from jumpcad.findings import errors
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation.jump import ACCOUNT, Jump
@@ -65,7 +66,7 @@ def compared_of(design: Design) -> Compared | None:
 
 def write_report(
     robot: Robot, pictures: Mapping[str, bytes], jump: Jump, glb: bytes | None = None, files: Iterable[str] = (),
-    sure: Uncertainty | None = None, series: Series | None = None, steps: Sequence[str] = (),
+    sure: Uncertainty | None = None, series: Series | Trip | None = None, steps: Sequence[str] = (),
 ) -> str:  # fmt: skip
     """Return the page; the jump has its trajectory if the page shows the motion.
 

@@ -174,7 +174,7 @@ def gif(pictures: list[Image.Image], frame_ms: int = FRAME_MS) -> bytes:
 MOTION_SIZE = (640, 330)
 MOTION_VIEW = View(yaw_deg=-72.0, pitch_deg=9.0)
 FRAME_S = 0.1
-TITLES = {"winding": "winding", "drop": "release", "push-off": "push-off", "flight": "flight", "landing": "landing"}
+RENAMED = {"drop": "release"}
 
 
 def motion_gif(
@@ -198,7 +198,7 @@ def motion_gif(
     for moment, one in zip(moments, poses, strict=True):
         phase = data["phase"][moment]
         name, _, number = phase.partition(" ")
-        title = TITLES[name] + (f", jump {number}" if number else "")
+        title = RENAMED.get(name, name) + (f", jump {number}" if number else "")
         caption = f"{title}{data['phases'][phase]}; stripes of {1000.0 * STRIPE_M:.0f} mm"
         pictures.append(with_floor(scene.picture(one, size, view, corners), camera, corners, caption))
     return gif(pictures, round(1000.0 * FRAME_S))

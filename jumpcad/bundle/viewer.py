@@ -19,6 +19,7 @@ from jumpcad.bundle.motion import motion, series_motion
 from jumpcad.bundle.renders import exploded
 from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
+from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.parts.part import Part
@@ -34,7 +35,7 @@ CELL_MM = 50
 """Distance of the lines of the ground; judgement: a third of a robot."""
 
 
-def viewer_values(robot: Robot, jump: Jump, glb: bytes, series: Series | None = None) -> dict[str, Any]:
+def viewer_values(robot: Robot, jump: Jump, glb: bytes, series: Series | Trip | None = None) -> dict[str, Any]:
     """Return what `templates/report/viewer.html.j2` needs: data, GLB file and program."""
     return {
         "cell_mm": CELL_MM,
@@ -44,10 +45,10 @@ def viewer_values(robot: Robot, jump: Jump, glb: bytes, series: Series | None = 
     }
 
 
-def viewer_data(robot: Robot, jump: Jump, series: Series | None = None) -> dict[str, Any]:
+def viewer_data(robot: Robot, jump: Jump, series: Series | Trip | None = None) -> dict[str, Any]:
     """Return the viewer's data: motion, turning parts, parts' labels, assembly steps, offsets when exploded (SI).
 
-    The motion is that of a jump, or of recorded jumps in a row.
+    The motion is that of a jump, or of recorded jumps in a row or on a course.
     """
     things = visuals(robot)
     bodies = body_poses(robot)

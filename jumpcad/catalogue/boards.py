@@ -12,7 +12,8 @@ from jumpcad.files import Contradiction
 from jumpcad.files.records import Name, OptionalName, Text
 
 FUNCTIONS = ("ground", "battery", "out", "adc", "pwm", "strapping", "boot_log",
-             "forward", "reverse", "sleep", "motor+", "motor-")  # fmt: skip
+             "forward", "reverse", "sleep", "motor+", "motor-",
+             "forward2", "reverse2", "motor2+", "motor2-")  # fmt: skip
 """What a pin of a board can do, besides `gpio` and its number; see `Board`."""
 GPIO = re.compile("gpio([0-9]{1,6})")
 MOST_GPIO = 63
@@ -29,7 +30,8 @@ class Board(Article):
     `supply_v` holds the permitted voltages of each supply input, by the name printed beside it. `pins` holds what the
     other pins do, by their printed names: `ground` (and `battery`: of pads for a cell alone), `out`; of a controller
     `gpio6` with its number, `adc`, `pwm`, `strapping` (its level at start chooses how the chip boots), `boot_log` (the
-    chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`. `diode_at` names inputs
+    chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`, of its second bridge
+    `forward2` and the like. `diode_at` names inputs
     that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
     that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
     length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are

@@ -36,7 +36,8 @@ class Motor(Article):
     Its body is a box along its axis; width and height are the largest of gearhead and motor across it. The shaft
     stands in the middle of the box, in a boss at the gearhead's front, and has a flat (`shaft_flat_mm` across it).
     Without `stall_torque_nm` it follows from no-load speed and stall current at `voltage_v` with the gearhead's
-    `efficiency` at stall, 0.5 unless given. `ratio` and `no_load_current_a` may be left out too.
+    `efficiency` at stall, 0.5 unless given. `ratio` and `no_load_current_a` may be left out too. `torque_max_nm` is
+    what its gears bear, where that is not what an N20's do.
     """
 
     ratio: Positive = 0.0
@@ -57,6 +58,7 @@ class Motor(Article):
     boss_length_mm: Annotated[float, Field(ge=0, le=50)]
     article: Text = ""
     bears_v: Volts | None = None
+    torque_max_nm: Positive | None = None
     confidence: Confidence = "stated"
 
     @property

@@ -53,6 +53,25 @@ class Bearing(Article):
             yield ("mass_g",), self.mass_g, reason
 
 
+class ORing(Article):
+    """A rubber ring: its inside diameter and that of its section."""
+
+    inside_mm: Length
+    section_mm: Length
+    density_g_cm3: Positive
+
+    @property
+    def description(self) -> str:
+        """What to order."""
+        return f"O-ring {self.inside_mm:g} x {self.section_mm:g} mm, NBR 70 Shore A"
+
+    @property
+    def mass_g(self) -> float:
+        """Mass of a torus."""
+        volume = math.pi**2 / 4.0 * self.section_mm**2 * (self.inside_mm + self.section_mm)
+        return self.density_g_cm3 * volume / 1000.0
+
+
 class StockSpring(Article):
     """A torsion spring from stock, of which shops keep both hands: its arms are tangents of the coil.
 

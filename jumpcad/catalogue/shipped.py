@@ -12,7 +12,7 @@ from jumpcad.catalogue.articles import AnyArticle, Article
 from jumpcad.catalogue.bars import CageRod, ClevisPin, Clip, LegBar, Rod
 from jumpcad.catalogue.boards import Board
 from jumpcad.catalogue.electrical import Battery, Component, Kit, Motor
-from jumpcad.catalogue.mechanical import Bearing, Pad, StockSpring
+from jumpcad.catalogue.mechanical import Bearing, ORing, Pad, StockSpring
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Record, TomlTable, did_you_mean, read_toml, templates_folder
 
@@ -109,6 +109,8 @@ class Catalogue:
     """All bought parts that a robot can be made of."""
 
     motors: PartsByName[Motor]
+    small_motors: PartsByName[Motor]
+    o_rings: PartsByName[ORing]
     bearings: PartsByName[Bearing]
     batteries: PartsByName[Battery]
     boards: PartsByName[Board]
@@ -133,6 +135,11 @@ class Catalogue:
         both = {kind: getattr(self, kind).with_own(parts) for kind, parts in own.items() if parts}
         return replace(self, **both) if both else self
 
+    @property
+    def steering_motors(self) -> PartsByName[Motor]:
+        """The motors that may turn the steering wheel: small ones, and those that wind."""
+        return PartsByName("motor", {**self.small_motors, **self.motors})
+
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
         """Return the mass of a steel rod (g)."""
         return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
@@ -150,13 +157,16 @@ class Catalogue:
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
     folder = templates_folder() / "hardware"
-    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars", "cage_rods")
-    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars, cage_rods = (
+    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars", "cage_rods",
+             "small_motors", "o_rings")  # fmt: skip
+    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars, cage_rods, small, rings = (
         read_toml(folder / f"{name}.toml")[0] for name in files
     )
     defaults = motors.pop("defaults")
     return Catalogue(
-        motors=_articles("motor", Motor, motors, defaults), bearings=_articles("bearing", Bearing, bearings),
+        motors=_articles("motor", Motor, motors, defaults), small_motors=_articles("motor", Motor, small),
+        bearings=_articles("bearing", Bearing, bearings),
+        o_rings=_articles("O-ring", ORing, rings, rings.pop("defaults")),
         batteries=_articles("battery", Battery, electronics["batteries"] | {"source": ""}),
         boards=_articles("board", Board, electronics["boards"] | {"source": ""}),
         components=_articles("component", Component, electronics["components"] | {"source": ""}),

@@ -47,6 +47,7 @@ INTENDED = (
     ("standoff", "standoff", "thread"),
     ("toe", "foot", "thread"),
     ("motor_pinion", "motor_shaft", "crush ribs"),
+    ("steering_wheel", "steering_shaft", "crush ribs"),
     ("spring_left", "spring_left_leg_arm", "coil and arm are one wire"),
     ("spring_right", "spring_right_leg_arm", "coil and arm are one wire"),
     ("stop_pad", "main_leg", "the pad is compressed"),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from jumpcad.cli.check import jump_in_words, notes
+from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
 from jumpcad.cli.subjects import (
     DesignArgument,
@@ -94,6 +95,8 @@ def render(
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,
+    to: ToOption = None,
+    course: CourseOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -102,7 +105,6 @@ def render(
     from jumpcad.bundle.renders import RENDERS, jump_gif, motion_gif, renders
     from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
-    from jumpcad.landing.series import jumps
     from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
@@ -121,9 +123,9 @@ def render(
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = headline(robot, trajectory=True)
-    if row and jump.trajectory is not None:
-        with status(f"drawing {counted(row, 'jump')} of {robot.name} …"):
-            files[GIF] = motion_gif(robot, viewer_data(robot, jump, jumps(robot, row, record=True)))
+    if jump.trajectory is not None and (row or to or course):
+        with status(f"drawing the jumps of {robot.name} …"):
+            files[GIF] = motion_gif(robot, viewer_data(robot, jump, recorded(robot, row, to, course)))
     elif jump.trajectory is not None:
         with status(f"drawing the jump of {robot.name} …"):
             files[GIF] = jump_gif(robot, jump.trajectory)

@@ -1,12 +1,15 @@
 """`jumpcad report`, `jumpcad compare`: pages on a robot, on a study, on robots side by side."""
 
 import os
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from jumpcad.cli.check import NextFlag, warn_of_no_jump
+from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table
 from jumpcad.cli.subjects import (
     RowOption,
@@ -18,6 +21,11 @@ from jumpcad.cli.subjects import (
     reject_workshop,
 )
 from jumpcad.errors import JumpcadError, without_controls
+
+if TYPE_CHECKING:
+    from jumpcad.landing.course import Trip
+    from jumpcad.landing.series import Series
+    from jumpcad.robot.robot import Robot
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -32,17 +40,21 @@ def report(
     ] = None,
     workshop: WorkshopOption = None,
     row: RowOption = None,
+    to: ToOption = None,
+    course: CourseOption = None,
     what_next: NextFlag = False,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
     if subject.endswith(STUDY) and not os.path.isdir(subject):
-        for given in ([f"--jumps {row}"] if row else []) + ["--next"] * what_next:
-            raise JumpcadError(f"{given}: {subject} is a study, which does not jump; leave it out")
+        given = {"jumps": row, "to": to, "course": course, "next": what_next}
+        if asked := next((name for name, value in given.items() if value), ""):
+            raise JumpcadError(f"--{asked}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
-        written = _robot_page(subject, output, workshop, row, what_next, force)
+        series = partial(recorded, row=row, to=to, course=course)
+        written = _robot_page(subject, output, workshop, series, what_next, force)
     if as_json:
         print_json({"file": str(written)})
     else:
@@ -65,14 +77,14 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
 
 
 def _robot_page(
-    subject: str, output: Path | None, workshop: str | None, row: int | None, what_next: bool, force: bool
-) -> Path:
+    subject: str, output: Path | None, workshop: str | None, series: "Callable[[Robot], Series | Trip | None]",
+    what_next: bool, force: bool,
+) -> Path:  # fmt: skip
     """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.bundle.limits import limits_of
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
-    from jumpcad.landing.series import jumps
     from jumpcad.remedies import next_steps, steps_in_words
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
@@ -86,9 +98,8 @@ def _robot_page(
     with status(f"building {subject} …"):
         robot = printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
-        series = jumps(robot, row, record=True) if row else None
         steps = steps_in_words(*next_steps(robot, limits_of(robot))) if what_next else ()
-        text = report_page(robot, bundle.files if bundle else (), series, steps)
+        text = report_page(robot, bundle.files if bundle else (), series(robot), steps)
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:

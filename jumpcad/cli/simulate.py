@@ -1,4 +1,4 @@
-"""`jumpcad simulate`: one jump; with `--landing` and `--jumps` how the robot lands, rights itself and jumps again."""
+"""`jumpcad simulate`: one jump; with `--landing`, `--jumps`, `--to` how it lands, jumps again, goes somewhere."""
 
 import csv
 import io
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli.going import CourseOption, ToOption, print_going, target_of, tries_of
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, robot_from_file
 from jumpcad.dimensions import counted
@@ -19,6 +20,7 @@ from jumpcad.simulation.engines import ENGINE_HELP, GENERAL, default_engine
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
+    from jumpcad.landing.course import Course
     from jumpcad.robot.robot import Robot
     from jumpcad.simulation import Jump, Settings
     from jumpcad.simulation.jump import Trajectory
@@ -52,13 +54,24 @@ def simulate(
     landing: Annotated[
         bool, typer.Option("--landing", help="How it lands, on what it rests, whether winding rights it (MuJoCo).")
     ] = False,
-    tries: Annotated[int, typer.Option(help="Landings of --landing.", min=1, max=10_000)] = TRIES,
+    tries: Annotated[int, typer.Option(help="Of --landing, --to, --course.", min=1, max=10_000)] = TRIES,
     row: Annotated[
         int | None,
         typer.Option("--jumps", help="Jumps in a row, each from where the last one ended (MuJoCo).", min=1, max=1000),
     ] = None,
+    to: ToOption = None,
+    course: CourseOption = None,
+    heading_noise: Annotated[
+        float | None,
+        typer.Option(
+            help="How well its heading is known for --to, --course: a standard deviation (°).",
+            show_default="3",
+            min=0,
+            max=180,
+        ),
+    ] = None,
     seed: Annotated[
-        int, typer.Option(help="Random seed of --uncertain, --landing, --jumps.", min=0, max=2**32 - 1)
+        int, typer.Option(help="Random seed of --uncertain, --landing, --jumps, --to, --course.", min=0, max=2**32 - 1)
     ] = 0,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -77,9 +90,11 @@ def simulate(
     from jumpcad.simulation import simulate as simulate_jump
     from jumpcad.simulation.uncertain import uncertainty_of
 
-    landings = "--landing" if landing else f"--jumps {row}"
+    target = target_of(to, course)
+    asked_for = {"--landing": landing, f"--jumps {row}": row, f"--to {to}": to, f"--course {course}": course}
+    landings, *others = [*(option for option, given in asked_for.items() if given), ""]
     alone = f"{{}} and {landings} exclude each other: {landings} is of a printed robot in MuJoCo; leave one out"
-    landed, plain = landing or row is not None, capsule or published
+    landed, plain = bool(landings), capsule or published
     for wrong, why in (
         (capsule and published, "--capsule and --published exclude each other: choose one model"),
         (plain and workshop is not None,
@@ -90,9 +105,12 @@ def simulate(
         (published and settings != DEFAULT_SETTINGS,
          f"--settings {settings}: --published has the study's own; leave one of them out"),
         (seed and not (uncertain or landed),
-         f"--seed {seed}: is that of --uncertain, --landing or --jumps; leave it out, or add one"),
-        (tries != TRIES and not landing, f"--tries {tries}: is that of --landing; leave it out, or add --landing"),
-        (landing and row, f"--jumps {row} and --landing exclude each other: leave one out"),
+         f"--seed {seed}: is that of --uncertain, --landing, --jumps, --to or --course; leave it out, or add one"),
+        (tries != TRIES and not (landing or target),
+         f"--tries {tries}: is that of --landing, --to and --course; leave it out, or add one"),
+        (heading_noise is not None and not target,
+         f"--heading-noise {heading_noise}: is that of --to and --course; leave it out, or add one"),
+        (any(others), f"{others[0] if others else ''} and {landings} exclude each other: leave one out"),
         (landed and capsule, alone.format("--capsule")),
         (landed and published, alone.format("--published")),
         (landed and engine not in (None, "mujoco"), alone.format(f"--engine {engine}")),
@@ -119,8 +137,8 @@ def simulate(
         if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
             raise JumpcadError(f"{option} {words} one engine: choose --engine pybullet, mujoco or planar")
     if (uncertain or landed) and written and not os.path.isdir(design):
-        asked_for = "--uncertain is" if uncertain else "--landing and --jumps are"
-        raise JumpcadError(f"{design}: {asked_for} for printed robots: give the design, or its bundle")
+        option = "--uncertain" if uncertain else landings
+        raise JumpcadError(f"{design}: {option} is for printed robots: give the design, or its bundle")
     changes = ({"flight": "simulated"} if flight or chain else {}) | ({"trajectory": True} if trajectory else {})
     asked = load_settings(settings).model_copy(update=changes)
     written = None if capsule or landed else written
@@ -134,7 +152,9 @@ def simulate(
         if alone_jump.verdict != "jump":
             _report(heading, [alone_jump], as_json)
             raise typer.Exit(1)
-        if row is None:
+        if target is not None:
+            _go(robot, heading, asked, target, tries, seed, heading_noise, as_json, trajectory, force)
+        elif row is None:
             _land(robot, heading, asked, tries, seed, as_json)
         else:
             _jump_on(robot, heading, asked, row, seed, as_json, trajectory, force)
@@ -212,6 +232,28 @@ def _jump_on(
         print_json(heading | {"series": series.to_dict()})
     else:
         print_text("jumps", design=heading["design"], count=count, series=series)
+
+
+def _go(
+    robot: "Robot", heading: dict[str, str], settings: "Settings", to: "float | tuple[float, ...] | Course", tries: int,
+    seed: int, noise_deg: float | None, as_json: bool, trajectory: Path | None, force: bool,
+) -> None:  # fmt: skip
+    """Send a robot somewhere a number of times; of an interrupted command, print what was finished.
+
+    The exit code is 1 if it never arrives.
+    """
+    from jumpcad.landing.course import HEADING_NOISE_DEG
+
+    noise = HEADING_NOISE_DEG if noise_deg is None else noise_deg
+    found, whole = tries_of(robot, to, tries, seed, settings, noise, trajectory is not None)
+    if found:
+        if trajectory and found[0].trajectory:
+            _write_trajectory(trajectory, found[0].trajectory, force)
+        print_going(robot, to, found, heading, noise, as_json)
+    if not whole:
+        raise KeyboardInterrupt
+    if not any(one.arrived for one in found):
+        raise typer.Exit(1)
 
 
 def _report(

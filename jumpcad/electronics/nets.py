@@ -23,8 +23,10 @@ PULL_UP_MORE = 1.1
 AT = {"upper resistor": "controller", "lower resistor": "controller", "pull-up resistor": "controller",
       "diode": "controller", "capacitor": "driver"}  # fmt: skip
 """Small parts, and the board at which they are soldered where a net has a terminal of it."""
-SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": ""}
+SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": "", "steer": "pwm", "steer_reverse": "pwm"}
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
+STEERING = {"steer": "forward2", "steer_reverse": "reverse2"}
+"""Signals of the motor that steers, and inputs of the driver's second bridge."""
 AVOIDED = ("strapping", "boot_log")
 """Functions that make a pin unsuitable: its level at start chooses how the chip boots, or the chip writes on it."""
 COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
@@ -94,10 +96,14 @@ class Wiring:
         return divider | ({} if self.pull_up_ohm is None else {"pull-up resistor": self.pull_up_ohm})
 
 
-def wiring_of(chosen: Chosen, named: Mapping[Any, str]) -> Wiring:
-    """Return the net list of a workshop's parts; `named` are pins that the workshop names, by signal."""
+def wiring_of(chosen: Chosen, named: Mapping[Any, str], steers: bool = False) -> Wiring:
+    """Return the net list of a workshop's parts; `named` are pins that the workshop names, by signal.
+
+    A robot that `steers` has a second motor, which turns either way, at the driver's second bridge.
+    """
     upper = divider_ohm(chosen)
     wanted = [s for s in SIGNALS if not (s == "battery" and upper is None)]
+    wanted = [s for s in wanted if steers or s not in STEERING]
     wanted = [s for s in wanted if not (s == "sleep" and not chosen.driver.with_function("sleep"))]
     wanted = [s for s in wanted if not (s == "ready" and "sensor" not in chosen.components)]
     pins = _pins(chosen.controller, wanted, named)
@@ -212,7 +218,7 @@ def _ground_net(chosen: Chosen, pins: dict[str, str]) -> Net:
 def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: int | None) -> Iterator[Net]:
     """Yield the wires between controller, driver, sensor, divider and motor."""
     driver = chosen.driver
-    for signal, function in (("motor", "forward"), ("sleep", "sleep")):
+    for signal, function in (("motor", "forward"), ("sleep", "sleep"), *STEERING.items()):
         if signal in pins:
             inputs = (Terminal("driver", pin) for pin in driver.with_function(function))
             yield Net(signal, "signal", (Terminal("controller", pins[signal]), *inputs))
@@ -228,3 +234,6 @@ def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: in
     for function in ("motor+", "motor-"):
         pins_out = tuple(Terminal("driver", p) for p in driver.with_function(function)[:1])
         yield Net(function, "motor", (*pins_out, Terminal("motor", function[-1])))
+    for sign in "+-" if STEERING.keys() <= pins.keys() else "":
+        pins_out = tuple(Terminal("driver", p) for p in driver.with_function(f"motor2{sign}")[:1])
+        yield Net(f"steering{sign}", "motor", (*pins_out, Terminal("steering motor", sign)))

@@ -115,7 +115,8 @@ def filled(
         "six": _six,
         "w": number,
     }
-    return allowed(fill("mjcf/robot.xml.j2", {"hold_nm": None, "excluded": (), "pairs": ()} | values | more))
+    others = {"hold_nm": None, "steer": None, "excluded": (), "pairs": ()}
+    return allowed(fill("mjcf/robot.xml.j2", others | values | more))
 
 
 def options(settings: Settings) -> Attributes:
@@ -195,7 +196,7 @@ def _limit(joint: Joint, mechanism: Multibody, settings: Settings) -> Attributes
 def _key(pose: ReleasePose, order: Sequence[Joint], others: Attributes) -> Attributes:
     """Return the attributes of a key frame with the pose and the velocities of a release."""
     attitude = wxyz(rotation_about_y(pose.body_pitch_rad))
-    angles, rates = ([found[joint.name] for joint in order] for found in (pose.joint_rad, pose.joint_rad_s))
+    angles, rates = ([found.get(joint.name, 0.0) for joint in order] for found in (pose.joint_rad, pose.joint_rad_s))
     moves = {"qvel": (*pose.body_m_s, 0.0, pose.body_rad_s, 0.0, *rates)} if rates[0] else {}
     return {"qpos": (*pose.body_position_m, *attitude, *angles), **others, **moves}
 

@@ -15,11 +15,14 @@ from typing import TYPE_CHECKING
 from jumpcad.collision.hulls import Capsule, body_hulls, cage_capsules
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
+from jumpcad.exporters.steered import WHEEL, SteerDrive, on_its_wheel, steer_drive, steered
 from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
 from jumpcad.files.templates import fill, render
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, Mechanism
+from jumpcad.mechanism.model import BODY, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
@@ -45,7 +48,7 @@ FLOOR: Attributes = {"name": "floor", "type": "plane", "size": "0 0 0.05"}
 
 def mjcf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of hulls, robot, scene and notes; the other meshes are those of the URDF."""
-    for name, hull in body_hulls(robot, visuals(robot)).items():
+    for name, hull in body_hulls(*steered(robot, visuals(robot))).items():
         yield f"urdf/{MESH_FOLDER}/{name}{HULL}.stl", write_stl(hull)
     yield f"mjcf/{robot.name}.xml", write_robot(robot, visuals(robot))
     yield "mjcf/scene.xml", allowed(fill("mjcf/scene.xml.j2", {"name": robot.name}))
@@ -64,6 +67,7 @@ def readme(robot: Robot) -> str:
         "newest": NEWEST_MUJOCO,
         "foot": rubs.contact("foot"),
         "body": rubs.contact("body"),
+        "steer": steers(robot) if robot.layout.of(Steering) else None,
     }
     return render("mjcf/README.md.j2", values)
 
@@ -73,22 +77,26 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
 
     Without `looks` it has no files of meshes beside it; with `floor` it stands on one.
     """
-    settings = Settings(dt_s=SUBSTEPS * STEP_S)
+    settings, steer = Settings(dt_s=SUBSTEPS * STEP_S), steer_drive(mechanism)
+    mechanism, visible = steered(mechanism, visible)
     hulls, seen = body_hulls(mechanism, visible), visible if looks else ()
     spring, hold = mechanism.spring, HOLD * mechanism.spring.peak_torque_nm
     limit: Attributes = {"name": "wound", "limited": "true", "range": (-spring.wind_rad, FREE_RAD),
                          "solreflimit": stiff(settings)["solref"], "solimplimit": IMPEDANCE}  # fmt: skip
-    keys = {"home": (standing(mechanism, 0.0), 0.0), "wound": (standing(mechanism, 1.0), -hold)}
+    still = (0.0,) if steer else ()
+    wound = on_its_wheel(mechanism, standing(mechanism, 1.0))
+    keys = {"home": (standing(mechanism, 0.0), (0.0, *still)), "wound": (wound, (-hold, *still))}
     if mechanism.roller_off:
-        keys["released"] = release_pose(mechanism), 0.0
+        keys["released"] = on_its_wheel(mechanism, release_pose(mechanism)), (0.0, *still)
     return filled(
         mechanism, settings, shortened,
-        {name: [*_shapes(mechanism, body, seen, name in hulls)] for name, body in mechanism.bodies.items()},
+        {name: [*_shapes(mechanism, body, seen, name in hulls, steer)] for name, body in mechanism.bodies.items()},
         {name: (pose, {"ctrl": ctrl}) for name, (pose, ctrl) in keys.items()},
         tendons=[*springs(mechanism), (spring.joint, limit)],
         floor=FLOOR if floor else {},
         excluded=list(_excluded(mechanism)),
         hold_nm=hold,
+        steer=steer,
         meshes=MESHES_FROM_BESIDE,
         colours={_material(colour): colour for colour in dict.fromkeys(shape.colour for shape in seen)},
         assets=[*_assets(seen, hulls)],
@@ -97,7 +105,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
 
 
 def _shapes(
-    mechanism: Mechanism, body: Body, visible: Sequence[Visual], has_hull: bool
+    mechanism: Mechanism, body: Body, visible: Sequence[Visual], has_hull: bool, steer: SteerDrive | None
 ) -> Iterator[tuple[str, Attributes]]:
     """Yield what is seen of a body, what collides, and the volumes of its touch sensors."""
 
@@ -115,7 +123,10 @@ def _shapes(
         yield collides(f"cage_{number}", type="capsule", fromto=(*rod.start_m, *rod.end_m), size=rod.radius_m,
                        **_softness(rod, mechanism.mass_kg))  # fmt: skip
     for one in body.contacts:
-        yield collides(f"{body.name}_{one.name}", type="sphere", pos=one.centre_m, size=one.radius_m)
+        rolls: Attributes = {"type": "sphere", "pos": one.centre_m, "size": one.radius_m}
+        if steer and body.name == WHEEL:  # round across its rim too
+            rolls = {"type": "ellipsoid", "size": (steer.half_width_m, one.radius_m, one.radius_m)}
+        yield collides(f"{body.name}_{one.name}", **rolls)
     for one in (contact for contact in body.contacts if contact.surface == FOOT):
         yield "site", {"name": one.name, "pos": one.centre_m, "size": TOUCH * one.radius_m}
 
@@ -144,5 +155,6 @@ def _material(colour: Colour) -> str:
 def _excluded(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies without a common joint: between others MuJoCo has no contacts anyway."""
     joined = {frozenset((joint.parent, joint.child)) for joint in mechanism.joints}
-    for index, one in enumerate(BODY_NAMES):
-        yield from ((one, other) for other in BODY_NAMES[index + 1 :] if frozenset((one, other)) not in joined)
+    names = [*mechanism.bodies]
+    for index, one in enumerate(names):
+        yield from ((one, other) for other in names[index + 1 :] if frozenset((one, other)) not in joined)

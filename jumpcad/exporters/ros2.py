@@ -16,6 +16,7 @@ import numpy as np
 from jumpcad.collision.hulls import CAGE, Capsule
 from jumpcad.exporters.mjcf_robot import HOLD
 from jumpcad.exporters.sdf import write_config, write_sdf
+from jumpcad.exporters.steered import WHEEL, steered
 from jumpcad.exporters.urdf import cage_cylinders, tree
 from jumpcad.exporters.xml import shortened
 from jumpcad.files import templates_folder
@@ -36,6 +37,34 @@ SLIM = 0.6
 """Radius of the links' capsules over the height of the ankle; judgement."""
 SLIM_TOE = 0.8
 """Radius of the toes' capsules over that of their spheres; judgement."""
+STEERING = {
+    "STEER_MANAGER": """
+    steer:
+      type: forward_command_controller/ForwardCommandController""",
+    "STEER_CONTROLLER": """
+steer:
+  ros__parameters:
+    joints:
+      - steer
+    interface_name: velocity
+""",
+    "STEER_JOINT": """    <joint name="steer">
+      <command_interface name="velocity" />
+      <state_interface name="position" />
+      <state_interface name="velocity" />
+    </joint>
+""",
+    "WHEEL_GAZEBO": """  <gazebo reference="wheel">
+    <mu1>@FOOT_FRICTION@</mu1>
+    <mu2>@FOOT_FRICTION@</mu2>
+  </gazebo>
+""",
+    "STEER_SPAWNER": '", "steer',
+    "STEER_README": """- **The steering wheel.** The controller `steer` turns it (rad/s), and with it the loaded robot:
+  `ros2 topic pub -1 /steer/commands std_msgs/msg/Float64MultiArray "{data: [3.0]}"`.
+""",
+}
+"""What a package says of a robot with a steering wheel, by its words; nothing of others."""
 CLEAR_M = 0.001
 """Clearance between the body's box and the ground in the loaded pose; judgement."""
 
@@ -61,7 +90,7 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of every file of the package."""
     model = model_name(robot.name)
     package = f"{model}_description"
-    folder, visible, mimics = f"ros2/{package}", visuals(robot), mimicked(robot)
+    folder, mimics, (whole, visible) = f"ros2/{package}", mimicked(robot), steered(robot, visuals(robot))
     rest, rubs = standing(robot, 0.0), coefficients(robot, Settings())
     words = {
         "PACKAGE": package,
@@ -74,7 +103,9 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         **{f"{name.upper()}_FRICTION": f"{rubs.contact(body.surface):g}" for name, body in robot.bodies.items()},
         "SPRING_REFERENCE": f"{robot.spring.preload_rad:.9g}",
         "SPRING_STIFFNESS": f"{robot.spring.stiffness_nm_per_rad:.9g}",
+        **{name: text if WHEEL in whole.bodies else "" for name, text in STEERING.items()},
     }
+    words = {name: re.sub("@([A-Z_]+)@", lambda found: words[found[1]], text) for name, text in words.items()}
     templates = templates_folder() / "ros2"  # with @WORDS@ to be replaced, in their names too; pip compiles its *.py
     for file in sorted(path for path in templates.rglob("*") if path.is_file() and path.suffix != ".pyc"):
         texts = file.relative_to(templates).as_posix(), file.read_text(encoding="utf-8")
@@ -82,9 +113,9 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         yield f"{folder}/{path}", text
     for mesh, shape in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"{folder}/{MESHES}/{mesh}.stl", write_stl(shape)
-    yield f"{folder}/urdf/links.xacro", _links(robot, visible, mimics, f"package://{package}/{MESHES}")
+    yield f"{folder}/urdf/links.xacro", _links(whole, visible, mimics, f"package://{package}/{MESHES}")
     yield f"{folder}/models/{model}/model.config", write_config(robot.name, "model.sdf")
-    yield f"{folder}/models/{model}/model.sdf", write_sdf(robot, visible, meshes=f"../../{MESHES}")
+    yield f"{folder}/models/{model}/model.sdf", write_sdf(whole, visible, meshes=f"../../{MESHES}")
 
 
 def _hold_nm(mechanism: Mechanism) -> float:
@@ -132,7 +163,7 @@ def capsules(mechanism: Mechanism, body: str) -> Iterator[Capsule]:
     design, origin = mechanism.design, np.zeros(3)
     radius = round(SLIM * mechanism.foot_depth_m, 6)
     lengths = dict(zip(BODY_NAMES, (0.0, design.l2_mm, design.l3_mm, design.l4_mm), strict=True))
-    if lengths[body]:
+    if lengths.get(body):
         yield Capsule(origin, np.array([lengths[body] / 1000.0, 0.0, 0.0]), radius)
     for toe in (one for one in mechanism.bodies[body].contacts if one.surface == "foot" and one.centre_m[0] < 0.0):
         yield Capsule(origin, np.round(toe.centre_m, 6), min(radius, round(SLIM_TOE * toe.radius_m, 6)))

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 
 from jumpcad.collision.hulls import cage_capsules
 from jumpcad.dimensions import MESHES_FROM_BESIDE
+from jumpcad.exporters.steered import steered
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.templates import fill
 from jumpcad.mechanism.model import Joint, Mechanism
@@ -25,7 +26,7 @@ SDF = "1.9"
 
 def sdf_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and content of the model and of the file by which Gazebo finds it; meshes are those of the URDF."""
-    yield f"sdf/{robot.name}.sdf", write_sdf(robot, visuals(robot))
+    yield f"sdf/{robot.name}.sdf", write_sdf(*steered(robot, visuals(robot)))
     yield "sdf/model.config", write_config(robot.name, f"{robot.name}.sdf")
 
 

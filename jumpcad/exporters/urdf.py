@@ -26,13 +26,14 @@ if TYPE_CHECKING:
 
 def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
     """Yield path and content of the visible meshes, of the URDF and of the loop file beside it."""
+    from jumpcad.exporters.steered import steered
     from jumpcad.scene.visuals import visuals
     from jumpcad.solids.stl import write_stl
 
     visible = visuals(robot)
     for name, mesh in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"urdf/{MESH_FOLDER}/{name}.stl", write_stl(mesh)
-    yield f"urdf/{robot.name}.urdf", write_urdf(robot, visible)
+    yield f"urdf/{robot.name}.urdf", write_urdf(*steered(robot, visible))
     yield f"urdf/{robot.name}.loop.json", write_loop(robot)
 
 

@@ -65,8 +65,10 @@ def wxyz(rotation: Array) -> Array:
 def limits(joint: Joint, mechanism: Mechanism) -> dict[str, float]:
     """Return what URDF and SDF say of a joint's limits: lower and upper angle (rad from rest), effort and velocity.
 
-    The angles are its travel and `SWING_RAD`; above, its stop if any.
+    The angles are its travel and `SWING_RAD`; above, its stop if any. A joint that turns without end has none.
     """
+    if math.isinf(joint.upper_rad):
+        return {"effort": joint.effort_nm, "velocity": joint.velocity_rad_s}
     stop = mechanism.stop
     upper = stop.angle_rad if stop and stop.joint == joint.name else joint.upper_rad + SWING_RAD
     return {"lower": joint.lower_rad - SWING_RAD, "upper": upper, "effort": joint.effort_nm,

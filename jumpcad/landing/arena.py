@@ -5,16 +5,20 @@ not with each other. Its equality `latch` winds the leg, as motor and cam do.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from jumpcad.collision.hulls import CAGE
 from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
+from jumpcad.exporters.steered import WHEEL
+from jumpcad.landing.obstacles import BOX, Obstacle
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
 from jumpcad.mechanism.poses import body_poses, release_pose
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.engines import import_mujoco
@@ -27,6 +31,8 @@ ROD_S = 0.02
 """Contacts of the cage's rods are softer than this, and all others harder."""
 TARGETS = 200
 """Steps in which the leg is wound."""
+TURN_LOOKS = 8
+"""How often a robot that steers is looked at."""
 LOOK_S = 0.005
 """How often a landing robot is looked at."""
 STILL_M_S, STILL_RAD_S, STILL_S = 0.02, 0.3, 0.2
@@ -37,11 +43,6 @@ REST_WITHIN_S = 8.0
 """A landing is over after this time, at rest or not."""
 UPRIGHT = math.cos(math.radians(20.0))
 """A robot stands on its feet where the foot's upward axis is at most 20° from the vertical."""
-STEP = (
-    '<body name="step" mocap="true" pos="0 0 -2"><geom name="step" type="box" size="{:g} {:g} {:g}" priority="-1" />'
-    "</body>"
-)
-"""A box that can be put anywhere."""
 ENDS = (("nose", "back"), ("left", "right"), ("top", "belly"))
 """What a robot rests on where the body's x, y or z axis points down, or up."""
 
@@ -66,37 +67,41 @@ class Arena:
         A printed robot.
     settings
         Of which gravity and friction hold; None: the defaults.
-    half_step_m
-        Half of length, width and height of a step, which `put_step` puts on the floor; None: there is none.
+    obstacles
+        What stands on the floor.
     """
 
-    def __init__(
-        self, robot: Robot, settings: Settings | None = None, half_step_m: tuple[float, float, float] | None = None
-    ) -> None:
+    def __init__(self, robot: Robot, settings: Settings | None = None, obstacles: Sequence[Obstacle] = ()) -> None:
         self._mujoco = mujoco = import_mujoco()
         settings = settings or Settings()
         self.robot, self.gravity_m_s2 = robot, settings.gravity_m_s2
         self._drag_per_m = drag_per_m(settings.drag_area_m2, robot.mass_kg)
         text = write_robot(robot, visuals(robot), looks=False, floor=True)
-        self._half_step_m = half_step_m
-        if half_step_m:
-            text = text.replace("</worldbody>", STEP.format(*half_step_m) + "</worldbody>")
+        boxes = (BOX.format(number, *one.half_m) for number, one in enumerate(obstacles))
+        text = text.replace("</worldbody>", "".join(boxes) + "</worldbody>")
         self.model = model = mujoco.MjModel.from_xml_string(text)
         self.data = mujoco.MjData(model)
         model.opt.gravity[2] = -settings.gravity_m_s2
-        self.bodies = {name: int(model.body(name).id) for name in BODY_NAMES}
+        wheel = () if robot.layout.of(Steering) is None else (WHEEL,)
+        self.bodies = {name: int(model.body(name).id) for name in (*BODY_NAMES, *wheel)}
         joint = model.joint(robot.spring.joint)
         self._leg, self._leg_rate = int(joint.qposadr[0]), int(joint.dofadr[0])
         self._latch = int(model.equality("latch").id)
         self._free = model.joint("free")
         rubs = coefficients(robot, settings)
-        of = {body: rubs.contact(robot.bodies[name].surface) for name, body in self.bodies.items()}
+        of = {
+            body: rubs.contact("foot" if name == WHEEL else robot.bodies[name].surface)
+            for name, body in self.bodies.items()
+        }
         self._friction = np.array([of.get(int(body), 0.0) for body in model.geom_bodyid])
         self.watch: Callable[[], None] | None = None
         """Called after each of MuJoCo's own steps, where something must see them all."""
         self.rods = np.array([model.geom(index).name.startswith(CAGE) for index in range(model.ngeom)])
         self.rods &= model.geom_solref[:, 0] > ROD_S
         self.stand_on(Floor())
+        self._obstacles = {int(model.geom(f"obstacle{number}").id): number for number in range(len(obstacles))}
+        for number, one in enumerate(obstacles):
+            self.place(number, one)
 
     def stand_on(self, floor: Floor) -> None:
         """Take another floor; the cage's rods stay as soft as they are."""
@@ -110,12 +115,13 @@ class Arena:
         self._hold(key == "wound")
         self._mujoco.mj_forward(self.model, self.data)
 
-    def put_step(self, x_m: float, height_m: float) -> None:
-        """Put the step's front at a distance along x, its top at a height; at 0 it lies below the floor."""
-        if self._half_step_m:
-            length, _, high = self._half_step_m
-            self.data.mocap_pos[0] = x_m + length, 0.0, (height_m or -1.0) - high
-            self._mujoco.mj_forward(self.model, self.data)
+    def place(self, number: int, obstacle: Obstacle | None) -> None:
+        """Put the obstacle of a number where another one of its kind stands, and as high; None: below the floor."""
+        pose = pose_at(np.eye(3), np.array([0.0, 0.0, -9.0])) if obstacle is None else obstacle.pose
+        self.data.mocap_pos[number] = pose[:3, 3]
+        self._mujoco.mju_mat2Quat(self.data.mocap_quat[number], np.ascontiguousarray(pose[:3, :3]).ravel())
+        self.model.key_mpos[:], self.model.key_mquat[:] = self.data.mocap_pos.ravel(), self.data.mocap_quat.ravel()
+        self._mujoco.mj_forward(self.model, self.data)
 
     def put(self, quaternion_wxyz: Array, height_m: float, velocity_m_s: Array, spin_rad_s: Array) -> None:
         """Put the robot with relaxed springs in an attitude (4,), its lowest point at a height, moving and turning."""
@@ -160,6 +166,16 @@ class Arena:
             self.model.eq_data[self._latch, 0] = target
             self.step(time_s / TARGETS, quiet=True)
             look()
+
+    def steer(self, angle_deg: float, look: Callable[[], None] = lambda: None) -> None:
+        """Turn by the wheel, to the left where positive, by time, as the firmware does."""
+        does, drive = steers(self.robot), self.data.actuator("steer")
+        drive.ctrl = math.copysign(does.free_rad_s, angle_deg)
+        for _ in range(TURN_LOOKS):
+            self.step(abs(angle_deg) / does.figures["turn_rate_deg_s"] / TURN_LOOKS, quiet=True)
+            look()
+        drive.ctrl = 0.0
+        self.step(STILL_S, quiet=True)
 
     def release(self) -> None:
         """Let the springs go: where the robot has a cam, from the state in which the roller has left it.
@@ -212,6 +228,12 @@ class Arena:
             slow = np.abs(self.data.qvel[:3]).max() < STILL_M_S and np.abs(self.data.qvel[3:6]).max() < STILL_RAD_S
             still_s = still_s + LOOK_S if slow else 0.0
         return float(self.data.time) - begun
+
+    @property
+    def struck(self) -> set[int]:
+        """Numbers of the obstacles that the robot touches."""
+        geoms = self.data.contact.geom.ravel() if self.data.ncon else ()
+        return {self._obstacles[geom] for geom in geoms if geom in self._obstacles}
 
     @property
     def held(self) -> bool:

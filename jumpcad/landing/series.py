@@ -1,6 +1,7 @@
 """Jumps in a row: the robot winds wherever it lies, waits, is released, flies and lands, and does so again."""
 
 import math
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -41,23 +42,10 @@ class Hop:
 
 
 @dataclass(frozen=True)
-class Series:
-    """Jumps in a row, with the energy of a jump, how many a full battery gives, and the motion if it was recorded.
-
-    `stands_again` and `faces_deg` say whether it stands once it is wound after the last one, and where it then faces.
-    Figures of a jump are those of jumps from its feet.
-    `phases` (n,) are those of the trajectory's moments, such as `flight 2` of the second jump: see `Recorder`.
-    """
+class Row:
+    """Some jumps, each from where the last one ended."""
 
     hops: tuple[Hop, ...]
-    distance_m: float
-    weight_n: float
-    electrical_j: float
-    jumps_per_charge: int
-    stands_again: bool
-    faces_deg: float
-    trajectory: Trajectory | None = None
-    phases: tuple[str, ...] = ()
 
     @property
     def stood(self) -> int:
@@ -68,6 +56,25 @@ class Series:
     def way_m(self) -> float:
         """The way of all jumps (m)."""
         return sum(hop.way_m for hop in self.hops)
+
+
+@dataclass(frozen=True)
+class Series(Row):
+    """Jumps in a row, with the energy of a jump, how many a full battery gives, and the motion if it was recorded.
+
+    `stands_again` and `faces_deg` say whether it stands once it is wound after the last one, and where it then faces.
+    Figures of a jump are those of jumps from its feet.
+    `phases` (n,) are those of the trajectory's moments, such as `flight 2` of the second jump: see `Recorder`.
+    """
+
+    distance_m: float
+    weight_n: float
+    electrical_j: float
+    jumps_per_charge: int
+    stands_again: bool
+    faces_deg: float
+    trajectory: Trajectory | None = None
+    phases: tuple[str, ...] = ()
 
     @property
     def unaided(self) -> int | None:
@@ -113,7 +120,7 @@ class Series:
 class Recorder:
     """Call it with a phase at every moment of an arena that is to be kept, if it is `on`; `phases` (n,) names them.
 
-    The phases of jump number n are `winding n`, `push-off n`, `flight n` and `landing n`.
+    The phases of jump number n are `winding n`, where it steers `turning n`, `push-off n`, `flight n` and `landing n`.
     """
 
     arena: Arena
@@ -149,7 +156,7 @@ class Recorder:
             return
         before = self.phases[-1].split()[0]
         touches, self._touched = self.arena.data.ncon > 0 or (before == "flight" and self._touched), False
-        phase = {"winding": "push-off", "flight": "landing"}.get(before, before) if touches else "flight"
+        phase = ("landing" if before == "flight" else "push-off") if touches else "flight"
         if before == "landing":
             self._looks += 1
             phase = "landing"
@@ -202,7 +209,7 @@ def jumps(
     first = arena.centre_of_mass_m
     recorder = Recorder(arena, record)
     arena.watch = recorder.watch if record else None
-    hops = tuple(_hop(arena, train.winding_s, rng, recorder) for _ in range(count))
+    hops = tuple(hop(arena, rng, recorder) for _ in range(count))
     way = float(np.linalg.norm((arena.centre_of_mass_m - first)[:2]))
     arena.wind(train.winding_s)
     arena.step(REST_S, quiet=True)
@@ -212,12 +219,20 @@ def jumps(
     return Series(hops, way, weight, train.electrical_j, charge, arena.stands, faces_deg, *moved)
 
 
-def _hop(arena: Arena, wind_s: float, rng: np.random.Generator, recorder: Recorder) -> Hop:
+def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callable[[], None] = lambda: None) -> Hop:
+    """Wind, rest, `turn`, jump and come to rest.
+
+    Raises
+    ------
+    CannotBuildError
+        If its first jump does not leave the floor.
+    """
     begun = float(arena.data.time)
     recorder.begin()
-    arena.wind(wind_s, lambda: recorder("winding"))
+    arena.wind(arena.robot.layout.drive.train.winding_s, lambda: recorder("winding"))
     arena.step(REST_S, quiet=True)
     recorder("winding")
+    turn()
     stood, start, heading = arena.stands, arena.centre_of_mass_m, math.degrees(arena.heading_rad)
     highest = float(start[2])
 

@@ -57,7 +57,8 @@ class Joint(ByValue):
 
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes: with `stops` they stop it, otherwise they are
     information for exporters. `effort_nm` and `velocity_rad_s` are the joint's largest torque and speed, for the URDF's
-    limits; `friction_nm` is its dry friction; `loaded_rad` its coordinate with loaded springs, where that is stated.
+    limits; `friction_nm` is its dry friction; `loaded_rad` its coordinate with loaded springs, where that is stated. A
+    wheel that is no hinge of the mechanism has another `axis`, and infinite bounds.
     """
 
     name: str
@@ -72,6 +73,7 @@ class Joint(ByValue):
     friction_nm: float = 0.0
     stops: bool = False
     loaded_rad: float | None = None
+    axis: str = "0 1 0"
 
 
 @dataclass(frozen=True, eq=False)

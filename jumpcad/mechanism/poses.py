@@ -75,4 +75,4 @@ def body_poses(mechanism: Mechanism, loaded: float = 0.0) -> dict[str, Array]:
     """Return the pose (4, 4) of every body's frame in the world (m) of a standing robot."""
     stance = standing(mechanism, loaded)
     root = pose_at(rotation_about_y(stance.body_pitch_rad), stance.body_position_m)
-    return mechanism.poses(root, [stance.joint_rad[joint.name] for joint in mechanism.joints])
+    return mechanism.poses(root, [stance.joint_rad.get(joint.name, 0.0) for joint in mechanism.joints])

@@ -59,7 +59,7 @@ class Robot(Mechanism):
     @cached_property
     def wiring(self) -> Wiring:
         """The net list of its electrical parts."""
-        return wiring_of(self.electrical_parts, self.workshop.bought.pins)
+        return wiring_of(self.electrical_parts, self.workshop.bought.pins, self.workshop.steering.wheel != "none")
 
     def __copy__(self) -> Self:
         """Return the robot itself: it does not change."""

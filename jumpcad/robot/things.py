@@ -8,7 +8,8 @@ from jumpcad.robot.leg.thing import LEG
 from jumpcad.robot.plates.thing import PLATES
 from jumpcad.robot.sensor.thing import SENSOR
 from jumpcad.robot.springs.thing import SPRINGS
+from jumpcad.robot.steering.thing import STEERING
 from jumpcad.robot.stop.thing import STOP
 from jumpcad.robot.train.thing import TRAIN
 
-THINGS = (LEG, FOOT, PLATES, TRAIN, SPRINGS, AXLES, ELECTRONICS, STOP, SENSOR, CAGE)
+THINGS = (LEG, FOOT, PLATES, TRAIN, SPRINGS, AXLES, ELECTRONICS, STOP, SENSOR, CAGE, STEERING)

@@ -123,10 +123,12 @@ class Space:
         for kind, name, values in asked:
             require_new(name, changed)
             changed[name] = changed_parameter(kind, name, values, workshop)
-        if workshop and not workshop.cage.rod and "cage.rod" not in changed:
-            for name in changed:
-                if name.startswith("cage."):
-                    raise JumpcadError(f"{name}: the workshop has no cage: fix cage.rod too, cage.rod=glass-1.5")
+        lacks = {"cage": ("rod", "glass-1.5")} if workshop and not workshop.cage.rod else {}
+        lacks |= {"steering": ("wheel", "o-ring")} if workshop and workshop.steering.wheel == "none" else {}
+        for thing, (key, value) in lacks.items():
+            if f"{thing}.{key}" not in changed and (named := [one for one in changed if one.startswith(f"{thing}.")]):
+                fix = f"fix {thing}.{key} too, {thing}.{key}={value}"
+                raise JumpcadError(f"{named[0]}: the workshop has no {thing}: {fix}")
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters, lowest_deg = [], usual["rest_angle_deg"].lower
         with_springs = _with_springs(workshop, lowest_deg) if workshop and "bought.spring" not in changed else {}

@@ -18,10 +18,13 @@ from jumpcad.collision.hulls import CAGE
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.loop_file import JOINTS, LoopFile
+from jumpcad.exporters.steered import STEER, WHEEL
 from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import shown
 from jumpcad.files.records import LONGEST_TEXT, control_character
+from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import (
+    BODY,
     BODY_NAMES,
     Body,
     ContactSphere,
@@ -35,7 +38,7 @@ from jumpcad.mechanism.model import (
     five_bar,
 )
 from jumpcad.mechanism.planar import points
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, pose_at
 
 LARGEST_M = 10.0
 """How far anything of a robot may be from the origin of its frame."""
@@ -62,11 +65,12 @@ def robot_from_urdf(path: Path) -> Mechanism:
         design = Design(**extra.design)
     with _named_file(path):
         root = _parsed(content)
+        wheel = _taken_wheel(root)
         links, joints = _named(root, "link", BODY_NAMES), _named(root, "joint", JOINTS)
         loop = extra.loop
         mechanism = Mechanism(
             name=_text(root, "name"), design=design,
-            bodies={name: _body(links[name], extra.surfaces) for name in BODY_NAMES},
+            bodies={name: _body(links[name], extra.surfaces, wheel) for name in BODY_NAMES},
             joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
             loops=(Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
             springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
@@ -117,7 +121,22 @@ def _named(root: ET.Element, tag: str, names: Sequence[str]) -> dict[str, ET.Ele
     return dict(found)
 
 
-def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
+def _taken_wheel(root: ET.Element) -> MassProperties | None:
+    """Take a steering wheel and its joint out of a document; return what the body carries with it, in its frame."""
+    links, joints = ([one for one in root.findall(tag) if one.get("name") == name] for tag, name in
+                     (("link", WHEEL), ("joint", STEER)))  # fmt: skip
+    if not (len(links) == len(joints) == 1):
+        return None
+    for one in (*links, *joints):
+        root.remove(one)
+    for collision in links[0].findall("collision"):
+        links[0].remove(collision)
+    wheel, (origin_m, rpy) = _body(links[0], {}), _origin(joints[0], f"joint {STEER}")
+    place = pose_at(Rotation.from_euler("xyz", rpy).as_matrix(), origin_m)
+    return MassProperties(wheel.mass_kg, wheel.com_m, wheel.inertia_kg_m2).placed(place)
+
+
+def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | None = None) -> Body:
     name = _text(link, "name")
     inertial = _child(link, "inertial", name)
     com_m, rpy = _origin(inertial, name)
@@ -139,7 +158,9 @@ def _body(link: ET.Element, surfaces: dict[str, Any]) -> Body:
     )
     if len({contact.name for contact in contacts}) < len(contacts):
         raise JumpcadError(f"{name}: two collisions have the same name")
-    return Body(name, mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes), contacts)
+    mass = MassProperties(mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes))
+    mass = combined([mass, wheel]) if wheel and name == BODY else mass
+    return Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
 
 
 def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:

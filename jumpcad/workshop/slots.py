@@ -58,6 +58,7 @@ SLOTS = {
     "bought.spring": Slot("springs", "spring", "springs made to order"),
     "bought.leg": Slot("bars", "leg bar", "printed legs"),
     "cage.rod": Slot("cage_rods", "cage rod", "no cage"),
+    "steering.motor": Slot("steering_motors", "motor", ""),
     "bought.axle": Slot("rods", "rod", ""),
     "ground.pad": Slot("pads", "pad"),
     "body.stop_pad": Slot("pads", "pad"),

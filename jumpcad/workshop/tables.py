@@ -123,7 +123,8 @@ class BoughtParts(ElectricalParts):
     `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
     it names itself override the kit's. An empty name leaves a part out, such as a
     regulator; a robot without switch or plug is refused. `pins` are pins of the controller for `motor`,
-    `sleep`, `ready` (the sensor) and `battery` (its voltage) where the program's choice does not suit.
+    `sleep`, `ready` (the sensor), `battery` (its voltage), `steer` and `steer_reverse` where the program's choice does
+    not suit.
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
@@ -134,7 +135,9 @@ class BoughtParts(ElectricalParts):
     kit: OptionalName
     leg_bearing: OptionalName
     roller: Name
-    pins: dict[Literal["motor", "sleep", "ready", "battery"], Name] = Field(default_factory=dict)
+    pins: dict[Literal["motor", "sleep", "ready", "battery", "steer", "steer_reverse"], Name] = Field(
+        default_factory=dict
+    )
     spring: OptionalName
     leg: OptionalName
     axle_mm: Length
@@ -172,6 +175,21 @@ class CageTable(TomlTable):
     rear_radius_mm: Annotated[float, Field(ge=0, le=250)]
     front_radius_mm: Annotated[float, Field(ge=0, le=250)]
     bar_mm: Annotated[float, Field(ge=4, le=10)]
+
+
+class SteeringTable(TomlTable):
+    """The wheel under the tail that turns the robot while it crouches: a printed one with an `o-ring`, or "none".
+
+    What is 0 is found: the wheel's radius with its ring, how far below the feet's plane it reaches in the loaded pose
+    (`dip_mm`), and how far it is behind the leg's axle, along the ground. `base_mm` is the thickness of its mount.
+    """
+
+    wheel: Literal["none", "o-ring"]
+    motor: Name
+    radius_mm: Annotated[float, Field(ge=0, le=30)]
+    dip_mm: Annotated[float, Field(ge=0, le=10)]
+    behind_mm: Annotated[float, Field(ge=0, le=120)]
+    base_mm: Annotated[float, Field(ge=1, le=8)]
 
 
 class Seats(TomlTable):

@@ -47,6 +47,7 @@ from jumpcad.workshop.tables import (
     Safety,
     Seats,
     SpringTable,
+    SteeringTable,
     StrengthTable,
 )
 
@@ -76,6 +77,7 @@ class Workshop(Record):
     bought: BoughtParts
     body: BodyPlates
     cage: CageTable
+    steering: SteeringTable
     seats: Seats
     ground: Ground
     pins: Pins

@@ -68,7 +68,8 @@ def test_the_module_is_python_with_every_number_and_what_it_means(robot: Robot) 
     assert all(text.endswith("\n") for text in files.values())
     space: dict[str, object] = {}
     exec(files["firmware/robot.py"], space)
-    assert {key: value for key, value in space.items() if key.isupper()} == numbers(robot)
+    said = numbers(robot) | {"NAME": robot.name, "BLUETOOTH": True}
+    assert {key: value for key, value in space.items() if key.isupper()} == said
     assert "# a blocked motor is off after this" in files["firmware/robot.py"]
     readme = files["firmware/README.md"]
     measured = numbers(robot)["PIN_BATTERY"] is not None

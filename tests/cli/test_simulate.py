@@ -112,7 +112,13 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
         (["kenan-2.0", "--published", "--settings", "nowhere.toml"], "--published has the study's own"),
         (["kenan-2.0", "--landing", "--jumps", "2"], "--jumps 2 and --landing exclude each other"),
         (["kenan-2.0", "--jumps", "2", "--flight"], "--flight and --jumps 2 exclude each other"),
-        (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain, --landing or --jumps"),
+        (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain, --landing, --jumps, --to"),
+        (["kenan-2.0", "--to", "3;0"], "--to 3;0: must be x and y in metres, as 3,0, or a distance"),
+        (["kenan-2.0", "--to", "nan,1"], "--to nan,1: must be x and y in metres"),
+        (["kenan-2.0", "--to", "3,0", "--jumps", "2"], "--to 3,0 and --jumps 2 exclude each other"),
+        (["kenan-2.0", "--to", "3,0", "--course", "c.toml"], "--to 3,0 and --course c.toml exclude each other"),
+        (["kenan-2.0", "--heading-noise", "5"], "--heading-noise 5.0: is that of --to and --course"),
+        (["kenan-2.0", "--to", "3,0"], 'kenan-2.0 has no steering: set [steering] wheel = "o-ring" in its workshop'),
         (["kenan-2.0", "--capsule", "--workshop", "fine"], "--workshop fine: cannot apply"),
         (["kenan-2.0", "--capsule", "--settings", "quick"], "'quick' is neither a TOML file nor"),
         (["kenan-3.0", "--capsule"], "did you mean kenan-2.0"),
@@ -152,7 +158,7 @@ def test_a_bundle_lands_and_jumps_on_as_its_design_and_as_python_says_and_its_ur
         assert json.loads(json.dumps(python)).items() <= json.loads(design).items(), options
         assert (code, json.loads(out) | {"design": "kenan-2.0"}) == (0, json.loads(design)), options
         refused = command(bundle / "urdf" / "kenan-2.0.urdf", *options)
-        assert (refused[0], "--landing and --jumps are for printed robots: give the design" in refused[2]) == (2, True)
+        assert (refused[0], "is for printed robots: give the design" in refused[2]) == (2, True)
 
 
 def test_robots_with_bodies_of_their_own(command: Run) -> None:

@@ -52,6 +52,8 @@ class Bench:
         self.bites_ms = math.inf
         self.resets_by_watchdog = False
         self.rights_itself = True
+        self.steers, self.left_ms, self.right_ms = False, 0.0, 0.0
+        self.radio: FakeRadio | None = None
 
     def sleep_ms(self, ms: int) -> None:
         self.now_ms += ms
@@ -62,6 +64,10 @@ class Bench:
             assert self.now_ms < 60_000, "nothing restarts it"
         if self.awake.get(6) and self.duty.get(5):
             self.turned_ms += ms * self.duty[5] / 65535
+        self.left_ms += ms * (self.awake.get(6, 0) and self.duty.get(3, 0) > 0)
+        self.right_ms += ms * (self.awake.get(6, 0) and self.duty.get(4, 0) > 0)
+        if self.radio:
+            self.radio.pass_on(self.now_ms)
         if self.now_ms > 12_000:
             raise KeyboardInterrupt
 
@@ -118,6 +124,53 @@ class Bench:
         self.keys += [(at_ms + n * apart_ms, byte) for n, byte in enumerate(keys.encode())]
 
 
+class FakeRadio:
+    """MicroPython's `bluetooth`, as its documentation has it: a telephone sends lines, and leaves at `None`."""
+
+    FLAG_NOTIFY, FLAG_WRITE, FLAG_WRITE_NO_RESPONSE = 16, 8, 4
+    UUID = str
+
+    def __init__(self, lines: dict[int, str | None]) -> None:
+        self.lines, self.heard, self.seen, self.now = sorted(lines.items()), b"", b"", b""
+
+    def BLE(self) -> Any:
+        return self
+
+    def active(self, on: bool) -> None:
+        assert on
+
+    def irq(self, handler: Any) -> None:
+        self.tell = handler
+
+    def gatts_register_services(self, services: Any) -> Any:
+        assert services[0][0] == "6E400001-B5A3-F393-E0A9-E50E24DCCA9E"
+        return ((21, 24),)
+
+    def gatts_set_buffer(self, handle: int, length: int, append: bool) -> None:
+        assert (handle, append) == (24, True)
+
+    def gap_advertise(self, interval_us: int, data: bytes) -> None:
+        self.seen = data
+
+    def gatts_read(self, handle: int) -> bytes:
+        assert handle == 24
+        read, self.now = self.now, b""
+        return read
+
+    def gatts_notify(self, link: int, handle: int, data: bytes) -> None:
+        assert (link, handle) == (7, 21)
+        assert len(data) <= 20
+        self.heard += data
+
+    def pass_on(self, now_ms: int) -> None:
+        """Send what is due."""
+        while self.lines and self.lines[0][0] <= now_ms:
+            _, line = self.lines.pop(0)
+            self.tell(1, (7, 0, b""))
+            self.now += b"" if line is None else line.encode() + b"\n"
+            self.tell(*((2, (7, 0, b"")) if line is None else (3, (7, 24))))
+
+
 def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     """Run the bundle's main.py on a pretended board until the bench interrupts it."""
     pin = bench.pin
@@ -149,12 +202,16 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
             ticks_ms=lambda: bench.now_ms, ticks_diff=lambda new, old: new - old, sleep_ms=bench.sleep_ms
         ),
     }
+    monkeypatch.setitem(sys.modules, "bluetooth", bench.radio)  # type: ignore[arg-type]
     for name in ("robot", "winder"):
         module = ModuleType(name)
         exec(compile(FILES[f"firmware/{name}.py"], name, "exec"), module.__dict__)
         if name == "robot":
             assert not module.RIGHTS_ITSELF  # kenan-2.0 has no cage
             module.RIGHTS_ITSELF = bench.rights_itself
+            if bench.steers:
+                module.PIN_STEER_LEFT, module.PIN_STEER_RIGHT = 3, 4
+                module.STEER_V, module.STEER_MS_PER_DEG, module.STEER_MAX_MS = 3.3, 50.0, 9000
         monkeypatch.setitem(sys.modules, name, module)
     for name, fake in modules.items():
         monkeypatch.setitem(sys.modules, name, fake)
@@ -376,3 +433,32 @@ def test_go_without_a_number_does_nothing(
     run_main(bench, monkeypatch)
     assert "unknown command" in capsys.readouterr().out
     assert bench.turned_ms == 0.0
+
+
+def test_a_wheel_turns_left_and_right_by_time_once_it_is_wound(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """30 degrees to the left, 40 to the right, at 50 ms each; before, and without a wheel, nothing turns."""
+    bench = Bench({100: "turn 30", 200: "wind", 2000: "turn 30", 4000: "turn -40", 7000: "turn 400", 8000: "jump"})
+    bench.steers = True
+    run_main(bench, monkeypatch)
+    said = capsys.readouterr().out
+    assert (bench.left_ms, bench.right_ms) == (pytest.approx(1500.0, abs=4.0), pytest.approx(2000.0, abs=4.0))
+    assert "it turns only while it is wound" in said
+    assert "wind, jump, go, stop, state, turn" in said
+    assert said.count("turned\n") == 2
+    assert "jump 1;" in said
+    none = Bench({200: "wind", 2000: "turn 30"})
+    run_main(none, monkeypatch)
+    assert none.left_ms == none.right_ms == 0.0
+    assert "unknown command" in capsys.readouterr().out
+
+
+def test_a_telephone_commands_it_and_a_lost_link_stops_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nordic's service; answers in packets of 20 bytes; a turn of 9 s ends when the telephone leaves after 2 s."""
+    bench = Bench({})
+    bench.steers, bench.radio = True, FakeRadio({100: "wind", 2000: "turn 180", 4000: None})
+    run_main(bench, monkeypatch)
+    assert 1900.0 < bench.left_ms < 2100.0
+    assert b"kenan-2.0" in bench.radio.seen
+    assert b"ready: keep away from the leg" in bench.radio.heard

@@ -338,3 +338,39 @@ def test_a_row_that_is_ended_lets_nothing_begin() -> None:
     row.end()
     assert row.commands(10**9) == (False, False)
     assert world.winder.state == WINDER.READY
+
+
+def turned_deg(world: World, degrees: int, seconds: float) -> float:
+    """Turn for a time; return by how much a robot turns whose wheel turns as fast as its voltage says (°).
+
+    The driver's mean voltage is 2·share - 1 of the battery's (TI DRV8833, fast decay).
+    """
+    wheel, angle = WINDER.Wheel(world.winder), 0.0
+    wheel.turn(round(world.now_ms), degrees)
+    end = world.now_ms + 1000.0 * seconds
+    while world.now_ms < end:
+        before = world.now_ms
+        world.step()
+        left, right = wheel.step(round(world.now_ms), world.battery_v)
+        mean_v = (2.0 * max(left, right) - 1.0) * (world.battery_v or 0.0) if left or right else 0.0
+        angle += math.copysign(mean_v / NUMBERS.STEER_V * (world.now_ms - before), left - right)
+    assert not wheel.turning
+    return angle / NUMBERS.STEER_MS_PER_DEG
+
+
+@each("battery_v", [3.4, 4.2])
+@each("degrees", [30, -30, -180])
+def test_a_wound_robot_turns_by_the_angle_whatever_its_battery(battery_v: float, degrees: int) -> None:
+    world = wound()
+    world.battery_v = battery_v
+    assert turned_deg(world, degrees, 10.0) == pytest.approx(degrees, abs=0.1)
+    assert (world.winder.state, world.drops) == (WINDER.READY, 0)
+
+
+def test_it_turns_in_no_state_but_ready_and_no_longer_than_that_lasts() -> None:
+    worlds = [World(), World(), jumped(), wound(), wound()]
+    worlds[1].step(wind=True)
+    worlds[3].dead_switch = False  # knocked
+    worlds[4].battery_v = 3.0
+    for world, most in zip(worlds, (0.0, 0.0, 0.0, 0.5, 5.0), strict=True):
+        assert 0.0 <= turned_deg(world, 90, 5.0) <= most, world.winder.state

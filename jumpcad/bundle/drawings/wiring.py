@@ -106,7 +106,7 @@ def _part(
 
 
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
-COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "regulator", "diode"),
+COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "steering motor", "regulator", "diode"),
            ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
 UNWIRED = "#8a8f96"
@@ -142,7 +142,8 @@ def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
     """Return what each part is called."""
     titles = {role: f"{role}: {board.name}" for role, board in chosen.boards.items()}
     titles |= {role: f"{role}: {part.name}" for role, part in chosen.components.items()}
-    titles |= {"battery": f"battery: {chosen.battery.name}", "motor": f"motor: {robot.layout.drive.train.motor.name}"}
+    titles |= {"battery": f"battery: {chosen.battery.name}", "motor": f"motor: {robot.layout.drive.train.motor.name}",
+               "steering motor": f"steering: {robot.workshop.steering.motor}"}  # fmt: skip
     return titles | {name: f"{name}: {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()}
 
 

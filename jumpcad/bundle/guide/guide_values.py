@@ -25,6 +25,7 @@ from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import ORDERED
+from jumpcad.robot.steering.drawing import steering_words
 from jumpcad.simulation import headline
 from jumpcad.steps.assembly_steps import ORDER, Step
 from jumpcad.steps.step_views import motor_sense
@@ -144,6 +145,7 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "m3_nm": TORQUE_M3_NM, "m2_nm": TORQUE_M2_NM, "plastic_nm": TORQUE_PLASTIC_NM, "press_n": PRESS_N,
         "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad), "cam_turn": both[1],
         "motor_turn": both[motor_sense(robot)],
+        "steering": steering_words(robot),
     }  # fmt: skip
 
 

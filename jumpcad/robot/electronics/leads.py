@@ -11,6 +11,7 @@ from jumpcad.dimensions import TRAY_MM
 from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.robot.electronics.fittings import wire_hole_mm
 from jumpcad.robot.layout import Layout
+from jumpcad.robot.steering.place import Steering
 from jumpcad.transforms import Array
 
 SLACK_MM = 30.0
@@ -84,6 +85,9 @@ def way_in(layout: Layout, role: str) -> list[Array]:
     if role == "switch" and layout.fittings.switch_mm is not None:
         x, z = layout.fittings.switch_mm
         return [np.array([x, inside[0] + BESIDE_MM, z])]
+    if role == "steering motor" and (place := layout.of(Steering)) is not None:
+        x, z = place.at(place.cradle_x_mm[1], 0.0)
+        return [np.array([x, float(place.T_body_axle[1, 3]), z])]
     seats = layout.electronics.seats(inside)
     seat = seats.get(role, seats["controller"])  # what is soldered into a wire lies at the controller
     x, z = layout.tray_mm

@@ -55,7 +55,7 @@ def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
             yield placed_box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, catalogue)
     parts = chosen_of(catalogue, chosen)
-    wiring = wiring_of(parts, chosen.pins)
+    wiring = wiring_of(parts, chosen.pins, workshop.steering.wheel != "none")
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
     found = list(_soldered(layout, parts, wiring, placed))
     small = [name for name, *_ in found if name.startswith(SMALL)]

@@ -14,6 +14,8 @@ from jumpcad.robot.cage.thing import horns
 from jumpcad.robot.electronics.fittings import fitting_pads
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sensor.thing import plate_pad
+from jumpcad.robot.steering.drawing import tail
+from jumpcad.robot.steering.place import Steering
 from jumpcad.robot.stop.place import EAR_MM
 from jumpcad.robot.stop.thing import stop_slot
 from jumpcad.robot.train.motor_socket import socket_outline
@@ -133,7 +135,8 @@ def outline(layout: Layout, blank: Blank, side: Face) -> Region:
     slot = rounded(stop_slot(layout, 0.0, STOP_EDGE_MM), 2.0)
     stop = hull([disc(axle, layout.hub_mm), base, slot, *around_pin])
     whole = blank.hull + stop - (blank.pockets - stop)
-    return whole + horns(layout) if layout.of(Cage) else whole
+    whole = whole + horns(layout) if layout.of(Cage) else whole
+    return whole + tail(layout) if layout.of(Steering) else whole
 
 
 def pin_hole(layout: Layout, width_mm: float) -> Region:

@@ -22,6 +22,8 @@ from jumpcad.robot.load_case import IN_PLANE, load_case, stress_finding
 from jumpcad.robot.plates.outline import blank_of, outline, pin_hole, tray_slots
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sensor.thing import plate_opening, plate_pad
+from jumpcad.robot.steering.drawing import tail_slot
+from jumpcad.robot.steering.place import Steering
 from jumpcad.robot.stop.thing import stop_slot
 from jumpcad.robot.thing import Check, Thing
 from jumpcad.robot.train.motor_socket import ear_places, motor_box, socket_outline
@@ -89,6 +91,7 @@ def _openings(layout: Layout, holes: HoleSizes, side: Face) -> Region:
     cut.append(stop_slot(layout, 2.0 * holes.fits.press_mm))
     cut += [pin_hole(layout, layout.pin_hole.diameter_mm)] if side == "left" else []
     cut += [horn_openings(layout, holes)] if layout.of(Cage) else []
+    cut += [tail_slot(layout, play)] if layout.of(Steering) else []
     return union(cut)
 
 

@@ -51,7 +51,7 @@ def link_obstacles(
     lever = Obstacle("lever", bar(hub, tips), sections.lever_root_mm / 2.0 + gap_mm, lever_y)
     link = Obstacle("front link", bar(front, pose.front_eye_mm), sections.eye_radius_mm + gap_mm, leg_y)
     finer = linkage.pose(np.linspace(linkage.travel_rad[0], reach_rad, FOOT_POSITIONS))
-    return [leg, lever, link, _foot(linkage, sections, finer.ankle_mm, finer.foot_rad, gap_mm)]
+    return [leg, lever, link, foot_obstacle(linkage, sections, finer.ankle_mm, finer.foot_rad, gap_mm)]
 
 
 def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) -> float:
@@ -75,14 +75,16 @@ def legs_apart_mm(linkage: Linkage, sections: Sections, reach_rad: float = 0.0) 
     return float(gap.min())
 
 
-def _foot(linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array, gap_mm: float) -> Obstacle:
-    """Return the foot from toe tips to nose: its lugs, and toes and rails on the sole."""
+def foot_obstacle(
+    linkage: Linkage, sections: Sections, ankle_mm: Array, foot_rad: Array, gap_mm: float, toes: float = 1.0
+) -> Obstacle:
+    """Return the foot from toe tips, or a share of the way to them, to nose: lugs, and toes and rails on the sole."""
     along, up = direction(foot_rad), direction(foot_rad - math.pi / 2.0)
-    toes, depth = toe_tip_mm(linkage.design)[0] - TOE_TIP_WIDTH_MM / 2.0, sections.foot_depth_mm
+    reach_mm, depth = toes * (toe_tip_mm(linkage.design)[0] - TOE_TIP_WIDTH_MM / 2.0), sections.foot_depth_mm
     eyes = np.concatenate([ankle_mm, ankle_mm + linkage.l4 * along])
     points, radii = [eyes], [np.full(len(eyes), depth + gap_mm)]
     ends = (
-        (toes, sections.toe_root_mm, sections.toe_tip_height_mm),
+        (reach_mm, sections.toe_root_mm, sections.toe_tip_height_mm),
         (linkage.l4, sections.rail_root_mm, sections.rail_tip_mm),
     )
     for reach, root, tip in ends:

@@ -1,0 +1,88 @@
+"""The steering wheel as a body of its own, on the joint `steer`, in the files of simulators (kg, m).
+
+The project's own engines carry it with the body: it is in the air while they push off and fly.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+
+from jumpcad.mechanism.mass import MassProperties, combined
+from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism
+from jumpcad.mechanism.poses import ReleasePose
+from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.drawing import WHEEL_PARTS
+from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.place import Steering
+from jumpcad.scene.visuals import Visual
+from jumpcad.transforms import chained, in_metres, rotation_about_y
+
+WHEEL, STEER = "wheel", "steer"
+"""Names of its body and of its joint."""
+AXLE = "1 0 0"
+AnyMechanism = TypeVar("AnyMechanism", bound=Mechanism)
+
+
+@dataclass(frozen=True)
+class SteerDrive:
+    """What turns the wheel, for actuators: largest torque, speed without load, its fall with torque, half width."""
+
+    torque_nm: float
+    free_rad_s: float
+    nms_per_rad: float
+    half_width_m: float
+
+
+def steer_drive(mechanism: Mechanism) -> SteerDrive | None:
+    """Return the drive of a robot's wheel on a battery of nominal voltage; None without one."""
+    if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
+        return None
+    found = steers(mechanism)
+    slope = found.stall_nm / found.free_rad_s
+    return SteerDrive(found.gears_nm, found.free_rad_s, slope, place.half_width_mm / 1000.0)
+
+
+def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[AnyMechanism, Sequence[Visual]]:
+    """Return a robot and what is seen of it with the wheel as a fifth body; without a wheel they are the same."""
+    if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
+        return mechanism, visible
+    T_body_wheel = in_metres(place.T_body_axle)
+    T_wheel_body = np.asarray(np.linalg.inv(T_body_wheel))
+    turning = [item.mass for item in mechanism.hardware if item.name in WHEEL_PARTS]
+    for part in mechanism.parts:
+        if part.name in WHEEL_PARTS:
+            turning += [part.mass.placed(in_metres(one.T_body_part)) for one in part.placements]
+    whole, wheel = mechanism.bodies[BODY], combined(turning)
+    rest = combined([_properties(whole), MassProperties(-wheel.mass_kg, wheel.com_m, -wheel.inertia_kg_m2)])
+    seen = wheel.placed(T_wheel_body)
+    touches = ContactSphere("rim", np.zeros(3), place.radius_mm / 1000.0, "foot")
+    bodies = dict(mechanism.bodies)
+    bodies[BODY] = replace(whole, mass_kg=rest.mass_kg, com_m=rest.com_m, inertia_kg_m2=rest.inertia_kg_m2)
+    bodies[WHEEL] = Body(WHEEL, seen.mass_kg, seen.com_m, seen.inertia_kg_m2, (touches,))
+    drive = steers(mechanism)
+    tilt = -np.radians(place.turn_deg)
+    joint = Joint(STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm,
+                  drive.free_rad_s, axis=AXLE)  # fmt: skip
+    moved = [
+        replace(one, body=WHEEL, T_body_mesh=chained(T_wheel_body, one.T_body_mesh)) if one.name in WHEEL_PARTS else one
+        for one in visible
+    ]
+    return replace(mechanism, bodies=bodies, joints=(*mechanism.joints, joint)), moved
+
+
+def on_its_wheel(mechanism: Mechanism, pose: ReleasePose) -> ReleasePose:
+    """Return a loaded robot's pose turned about the sole of its front eye until the wheel stands on the ground."""
+    if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
+        return pose
+    lean = math.asin(place.dip_mm / place.lever_mm)
+    turn, eye = rotation_about_y(lean), np.array([mechanism.linkage.l4 / 1000.0, 0.0, 0.0])
+    place_m = eye + np.einsum("ij,j->i", turn, pose.body_position_m - eye)
+    velocity = np.einsum("ij,j->i", turn, pose.body_m_s)
+    return replace(pose, body_position_m=place_m, body_pitch_rad=pose.body_pitch_rad + lean, body_m_s=velocity)
+
+
+def _properties(body: Body) -> MassProperties:
+    return MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2)
