@@ -23,6 +23,8 @@ from jumpcad.transforms import chained, in_metres, rotation_about_y
 WHEEL, STEER = "wheel", "steer"
 """Names of its body and of its joint."""
 AXLE = "1 0 0"
+N20_MM = 10.0
+"""Width of the motors whose rotor's inertia a workshop gives; that of others grows with the fifth power of theirs."""
 AnyMechanism = TypeVar("AnyMechanism", bound=Mechanism)
 
 
@@ -64,8 +66,13 @@ def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[An
     bodies[WHEEL] = Body(WHEEL, seen.mass_kg, seen.com_m, seen.inertia_kg_m2, (touches,))
     drive = steers(mechanism)
     tilt = -np.radians(place.turn_deg)
-    joint = Joint(STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm,
-                  drive.free_rad_s, axis=AXLE)  # fmt: skip
+    low, high = mechanism.workshop.release.rotor_kg_m2
+    narrow = min(place.motor.width_mm, place.motor.height_mm) / N20_MM
+    rotor = math.sqrt(low * high) * narrow**5 * place.motor.ratio**2
+    joint = Joint(
+        STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm, drive.free_rad_s,
+        axis=AXLE, armature_kg_m2=rotor,
+    )  # fmt: skip
     moved = [
         replace(one, body=WHEEL, T_body_mesh=chained(T_wheel_body, one.T_body_mesh)) if one.name in WHEEL_PARTS else one
         for one in visible

@@ -120,12 +120,13 @@ def steers(robot: Robot) -> Steers:
     ahead, aside, height = _centre_mm(robot, place)
     lever, half_width, middle = place.lever_mm, layout.toe_half_width_mm, float(place.T_body_axle[1, 3])
     toe_x = layout.design.l4_mm - float(toe_tip_mm(layout.design)[0])  # behind the front eye
-    off = aside - middle * (lever - ahead) / lever  # of the line from eye to wheel
+    side = math.copysign(1.0, aside - middle * (lever - ahead) / lever)  # of the line from eye to wheel
     lean = place.dip_mm * toe_x / lever / half_width
-    toe = (abs(off) + height * lean) / (half_width - math.copysign(middle, off) * toe_x / lever)
-    wheel = (lever - ahead - toe * toe_x) / lever
-    loads = robot.mass_kg * GRAVITY_M_S2 * np.array([1.0 - toe - wheel, wheel, toe])
-    slides = float(loads[2]) * math.hypot(toe_x, half_width) + float(loads[0]) * layout.lateral.lug_left[1]
+    nose = layout.lateral.lug_left[1]  # on whose edge it leans; the wheel rolls sideways below its axle
+    places = [[1.0, 1.0, 1.0], [0.0, lever, toe_x], [side * nose, middle, side * half_width]]
+    aside += side * (height - place.radius_mm) * lean
+    loads = robot.mass_kg * GRAVITY_M_S2 * np.linalg.solve(places, [1.0, lever - ahead, aside])
+    slides = float(loads[2]) * math.hypot(toe_x, half_width) + float(loads[0]) * nose
     need = robot.workshop.ground.foot_friction * slides / lever * place.radius_mm / 1000.0
     gears = place.motor.torque_max_nm or robot.workshop.safety.motor_torque_max_nm
     # a wheel that is blocked slips, so that its gears do not limit the voltage
