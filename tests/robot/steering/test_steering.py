@@ -72,10 +72,11 @@ def test_a_wheel_dips_as_far_as_said_with_loaded_springs_and_is_high_at_rest(nam
 
 
 @pytest.mark.thorough
-def test_the_wheel_turns_the_robot_on_four_floors_as_geometry_says() -> None:
-    """Turning left it rolls on within 5 %; turning right the robot rocks between its toes, and loses up to a fifth."""
+@each(("name", "right"), [("kenan-2.0", 0.03), ("best-upright", 0.03), ("best-jumper", 0.2)])
+def test_the_wheel_turns_the_robot_on_four_floors_as_geometry_says(name: str, right: float) -> None:
+    """To the left within 5 %; to the right too, but of a robot that leans by 5° and rocks between its toes there."""
     mujoco = needs.package("mujoco")
-    robot = steered()
+    robot = steered(name)
     text = write_robot(robot, visuals(robot), looks=False, floor=True)
     for friction, softness_s in FLOORS:
         for way in (1.0, -1.0):
@@ -93,7 +94,7 @@ def test_the_wheel_turns_the_robot_on_four_floors_as_geometry_says() -> None:
             mujoco.mj_step(model, data, nstep=8000)
             revolutions = (data.joint("steer").qpos[0] - begin[0]) / (2.0 * math.pi)
             turned = math.degrees(math.atan2(*data.body("body").xmat[[3, 0]]) - begin[1]) / revolutions
-            assert turned / (360.0 * radius / lever) == pytest.approx(1.0, abs=0.05 if way > 0.0 else 0.2)
+            assert turned / (360.0 * radius / lever) == pytest.approx(1.0, abs=0.05 if way > 0.0 else right)
             assert data.body("foot").xmat[8] > math.cos(math.radians(10.0))
     assert place_of(robot).turn_per_rev_deg == pytest.approx(360.0 * radius / lever, rel=0.01)
 
@@ -115,7 +116,7 @@ def test_supports_bear_what_simulated_contacts_bear() -> None:
             found[next((part for part in ("rim", "toe") if part in name), "eye")] += float(force[0]) / 2000.0
     loads = steers(robot).loads_n
     assert loads.sum() == pytest.approx(robot.mass_kg * GRAVITY_M_S2)
-    assert list(found.values()) == pytest.approx(loads.tolist(), rel=0.1)
+    assert list(found.values()) == pytest.approx(loads.tolist(), abs=0.05 * loads.sum())
 
 
 @pytest.mark.thorough
