@@ -5,7 +5,7 @@ The project's own engines carry it with the body: it is in the air while they pu
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -28,23 +28,9 @@ N20_MM = 10.0
 AnyMechanism = TypeVar("AnyMechanism", bound=Mechanism)
 
 
-@dataclass(frozen=True)
-class SteerDrive:
-    """What turns the wheel, for actuators: largest torque, speed without load, its fall with torque, half width."""
-
-    torque_nm: float
-    free_rad_s: float
-    nms_per_rad: float
-    half_width_m: float
-
-
-def steer_drive(mechanism: Mechanism) -> SteerDrive | None:
-    """Return the drive of a robot's wheel on a battery of nominal voltage; None without one."""
-    if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
-        return None
-    found = steers(mechanism)
-    slope = found.stall_nm / found.free_rad_s
-    return SteerDrive(found.gears_nm, found.free_rad_s, slope, place.half_width_mm / 1000.0)
+def wheel_of(mechanism: Mechanism) -> Steering | None:
+    """Return where a robot's wheel is; None without one."""
+    return mechanism.layout.of(Steering) if isinstance(mechanism, Robot) else None
 
 
 def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[AnyMechanism, Sequence[Visual]]:
