@@ -9,6 +9,6 @@ from jumpcad.catalogue.shipped import Catalogue, Nut, PartsByName, Screw, Stando
 
 __all__ = [
     "Article", "Battery", "Bearing", "Board", "CageRod", "Catalogue", "ClevisPin", "Clip", "Component",
-    "ElectricalParts", "Kit", "LegBar", "Motor", "Nut", "ORing", "OwnParts", "Pad", "PartsByName", "Rod", "Screw", "Standoff",
-    "StockSpring", "Travel", "Washer", "Wire", "load_catalogue",
+    "ElectricalParts", "Kit", "LegBar", "Motor", "Nut", "ORing", "OwnParts", "Pad", "PartsByName", "Rod", "Screw",
+    "Standoff", "StockSpring", "Travel", "Washer", "Wire", "load_catalogue",
 ]  # fmt: skip
