@@ -2,9 +2,10 @@
 
 From the first turn of the motor on a hardware watchdog restarts the board, motor off, if the program hangs.
 
-Commands over USB, one a line: `wind`, `jump`, `go 10`, `stop`, `state`. The button on the board winds, and then
-releases after a delay, in which you step back. While it winds a press stops the motor, and during the delay it takes
-the jump back; it also ends jumps in a row.
+Commands over USB and Bluetooth, one a line: `wind`, `jump`, `go 10`, `stop`, `state`, and with a steering wheel
+`turn 30`, in degrees, left positive. A link by Bluetooth that is lost counts as `stop`. The button on the board winds,
+and then releases after a delay, in which you step back. While it winds a press stops the motor, and during the delay
+it takes the jump back; it also ends jumps in a row, and a turn.
 """
 
 import select
@@ -13,14 +14,24 @@ import time
 
 import robot
 from machine import ADC, PWM, WDT, WDT_RESET, Pin, reset_cause
-from winder import FAULT, READY, REFUSED, WINDING, Row, Winder
+from winder import FAULT, READY, REFUSED, WINDING, Row, Wheel, Winder
+
+try:
+    import bluetooth
+except ImportError:  # a chip without
+    bluetooth = None
 
 STEP_MS = 2
 LONGEST = 20  # characters of a line that are kept
-MOST = 9999  # jumps in a row
+NUMBERED = {"go": (1, 9999), "turn": (-180, 180)}  # jumps in a row; degrees
 KEPT = 20  # lines that wait for the motor to stand
 SAMPLES = 8  # readings of the battery that are averaged: one alone scatters
-COMMANDS = ("wind", "jump", "go", "stop", "state")
+STEERS = robot.PIN_STEER_LEFT is not None
+COMMANDS = ("wind", "jump", "go", "stop", "state") + (("turn",) if STEERS else ())
+UART = "6E40000%d-B5A3-F393-E0A9-E50E24DCCA9E"  # Nordic's service for text: 1, written 2, read 3
+CONNECTED, LEFT, WRITTEN = 1, 2, 3  # events of MicroPython's bluetooth
+ADVERTISED_US = 250_000
+PACKET = 20  # bytes that every receiver takes at once
 
 
 class Board:
@@ -34,6 +45,8 @@ class Board:
         self.battery = None
         if robot.PIN_BATTERY is not None:
             self.battery = ADC(Pin(robot.PIN_BATTERY), atten=ADC.ATTN_11DB)
+        pins = (robot.PIN_STEER_LEFT, robot.PIN_STEER_RIGHT) if STEERS else ()
+        self.wheel = [PWM(Pin(pin), freq=robot.PWM_HZ, duty_u16=0) for pin in pins]
         self.turning = False
         self.watchdog = None  # none before the motor turns: it cannot be ended, and files are copied without it
 
@@ -42,14 +55,16 @@ class Board:
         if self.watchdog is not None:
             self.watchdog.feed()
 
-    def turn(self, share):
-        """Give the motor a share of PWM; at 0 the driver sleeps."""
-        if share > 0.0 and self.watchdog is None:
+    def turn(self, share, wheel=(0.0, 0.0)):
+        """Give the motor, and the wheel's to the left or right, a share of PWM; at 0 the driver sleeps."""
+        self.turning = share > 0.0 or max(wheel) > 0.0
+        if self.turning and self.watchdog is None:
             self.watchdog = WDT(timeout=robot.WATCHDOG_MS)
-        self.turning = share > 0.0
         if self.sleep is not None:
-            self.sleep.value(1 if share > 0.0 else 0)
+            self.sleep.value(1 if self.turning else 0)
         self.motor.duty_u16(int(65535 * share))
+        for number, pin in enumerate(self.wheel):
+            pin.duty_u16(int(65535 * wheel[number]))
 
     def battery_v(self):
         """Return the battery's voltage, or None where it is not measured."""
@@ -71,17 +86,73 @@ class Button:
         return before < 30 <= self.was_down_ms
 
 
-class Console:
-    """Commands over USB, taken byte by byte: waiting for the end of a line would stop the loop with the motor on."""
+def usb():
+    """Return a function that takes at most one byte of what was typed."""
+    poll = select.poll()
+    poll.register(sys.stdin, select.POLLIN)
+    return lambda: sys.stdin.buffer.read(1) if poll.poll(0) else b""
+
+
+class Radio:
+    """The board's Bluetooth: bytes that come, as of a serial cable, and lines that go to all who listen."""
 
     def __init__(self):
-        self.poll = select.poll()
-        self.poll.register(sys.stdin, select.POLLIN)
+        self.ble, self.links = bluetooth.BLE(), set()
+        self.come, self.rest = [], b""  # events come between any two steps of the program: they only append
+        self.ble.active(True)
+        self.ble.irq(self.event)
+        notify, write = bluetooth.FLAG_NOTIFY, bluetooth.FLAG_WRITE | bluetooth.FLAG_WRITE_NO_RESPONSE
+        service, written, read = (bluetooth.UUID(UART % number) for number in (1, 2, 3))
+        ((self.read, self.written),) = self.ble.gatts_register_services(
+            ((service, ((read, notify), (written, write))),)
+        )
+        self.ble.gatts_set_buffer(self.written, 10 * PACKET, True)
+        self.advertise()
+
+    def advertise(self):
+        """Be found by name; the flags say that it has no classic Bluetooth."""
+        name = robot.NAME.encode()[:26]
+        self.ble.gap_advertise(ADVERTISED_US, b"\x02\x01\x06" + bytes((len(name) + 1, 9)) + name)
+
+    def event(self, number, data):
+        """Take what MicroPython tells."""
+        if number == CONNECTED:
+            self.links.add(data[0])
+        elif number == LEFT:
+            self.links.discard(data[0])
+            self.come.append(b"\nstop\n")
+            self.advertise()
+        elif number == WRITTEN and len(self.come) < KEPT:
+            self.come.append(self.ble.gatts_read(self.written))
+
+    def byte(self):
+        """Take at most one byte."""
+        if not self.rest and self.come:
+            self.rest = self.come.pop(0)
+        byte, self.rest = self.rest[:1], self.rest[1:]
+        return byte
+
+    def write(self, line):
+        """Send a line."""
+        data = line.encode() + b"\n"
+        for link in list(self.links):
+            try:
+                for at in range(0, len(data), PACKET):
+                    self.ble.gatts_notify(link, self.read, data[at : at + PACKET])
+            except OSError:  # it has just left, or does not listen
+                pass
+
+
+class Console:
+    """Commands, taken byte by byte: waiting for the end of a line would stop the loop with the motor on."""
+
+    def __init__(self, take):
+        self.take = take
         self.typed = ""
 
     def command(self):
         """Take at most one byte; return the line that it ends, or an empty text."""
-        byte = sys.stdin.buffer.read(1) if self.poll.poll(0) else b""
+        byte = self.take()
         if not byte:
             return ""
         if byte in (b"\r", b"\n"):
@@ -92,10 +163,11 @@ class Console:
 
 
 class Output:
-    """Lines for the console, written only while the motor stands: a computer that does not read them may block."""
+    """Lines for all who listen, written only while the motor stands: a computer that does not read may block."""
 
-    def __init__(self):
+    def __init__(self, radio):
         self.lines = []
+        self.radio = radio
 
     def say(self, line):
         """Keep a line; of many the last."""
@@ -106,21 +178,28 @@ class Output:
     def write(self):
         """Write what was kept."""
         while self.lines:
-            print(self.lines.pop(0))
+            line = self.lines.pop(0)
+            print(line)
+            if self.radio:
+                self.radio.write(line)
 
 
 def split(line):
     """Return a command and the number behind it; 0 without one, and no command where it is none."""
     word, _, number = line.partition(" ")
-    if word != "go":
+    if word not in NUMBERED:
         return line, 0
-    return ("go", int(number)) if number.isdigit() and 0 < int(number) <= MOST else ("go?", 0)
+    least, most = NUMBERED[word]
+    digits = number[1:] if number[:1] in ("-", "+") else number
+    return (word, int(number)) if digits.isdigit() and least <= int(number) <= most else (word + "?", 0)
 
 
 def run():
     """Run until interrupted; the motor is off afterwards in every case."""
-    board, winder, button, console, output = Board(), Winder(robot), Button(), Console(), Output()
-    row = Row(winder)
+    board, winder, button = Board(), Winder(robot), Button()
+    radio = Radio() if bluetooth and robot.BLUETOOTH else None
+    output, consoles = Output(radio), [Console(usb())] + ([Console(radio.byte)] if radio else [])
+    row, wheel = Row(winder), Wheel(winder)
     told, release_at = "", None
     if reset_cause() == WDT_RESET:
         output.say("the program hung and was restarted")
@@ -131,17 +210,21 @@ def run():
             ticks = time.ticks_ms()
             now += time.ticks_diff(ticks, last)
             last = ticks
-            word, number = split(console.command())
+            word, number = split(next(filter(None, (console.command() for console in consoles)), ""))
             down = board.button is not None and not board.button.value()
             pressed = button.pressed(now, down)
-            if number > 1 and not robot.RIGHTS_ITSELF:
+            if word != "go":
+                pass
+            elif number > 1 and not robot.RIGHTS_ITSELF:
                 output.say("it does not roll onto its feet: set it on them, and give go 1")
-            elif number and winder.state in (REFUSED, FAULT):
+            elif winder.state in (REFUSED, FAULT):
                 output.say("no jumps in a row after that: first look at the robot, and wind")
-            elif number:
+            else:
                 row.begin(number, now)
                 output.say("%d jumps in a row; stop or the button ends it" % number)
-            ended = row.left and (pressed or word in ("stop", "wind", "jump"))
+            ended = row.left and (pressed or word in ("stop", "wind", "jump", "turn"))
+            if pressed or word in ("stop", "wind", "jump", "go"):
+                wheel.stop()
             if ended:
                 row.end()
                 pressed = pressed and winder.state == WINDING  # it ends the row, and nothing begins
@@ -154,7 +237,7 @@ def run():
                 release_at = now + robot.BUTTON_DELAY_MS
                 output.say("jump in %d s" % (robot.BUTTON_DELAY_MS // 1000))
             due = release_at is not None and now >= release_at
-            if winder.state != READY or due or word == "stop":
+            if winder.state != READY or due or word in ("stop", "turn"):
                 release_at = None
             again, hop = row.commands(now)
             volts = board.battery_v()
@@ -166,8 +249,14 @@ def run():
                 jump=word == "jump" or hop or due,
                 stop=word == "stop" or (pressed and winder.state == WINDING),
             )
-            if share == 0.0:
+            if word == "turn" and STEERS:
+                wheel.turn(now, number)
+            shares = wheel.step(now, volts)
+            if share == max(shares) == 0.0:
                 board.turn(0.0)
+            if wheel.said:
+                output.say(wheel.said)
+                wheel.said = ""
             if word and word not in COMMANDS:
                 output.say("unknown command; there are: %s" % ", ".join(COMMANDS))
             elif word or winder.said != told:  # each command is answered, also one that does nothing in this state
@@ -176,8 +265,8 @@ def run():
                 output.say("%s: %s; %d jumps%s" % (winder.state, told, winder.jumps, battery))
             if not board.turning:
                 output.write()
-            if share > 0.0:
-                board.turn(share)
+            if share > 0.0 or max(shares) > 0.0:
+                board.turn(share, shares)
             time.sleep_ms(STEP_MS)
     finally:
         board.turn(0.0)

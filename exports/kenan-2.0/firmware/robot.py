@@ -1,11 +1,18 @@
 """Numbers of one robot, computed by jumpcad: motor n20-298-mp."""
 
+NAME = "kenan-2.0"  # by which Bluetooth finds it
+BLUETOOTH = True  # False: commands over USB alone; it asks nobody for a password
 PIN_MOTOR = 5  # GPIO numbers
 PIN_SLEEP = 6
 PIN_READY = 7
 READY_LEVEL = 1  # of the sensor's pin at the ready position: 1 with a contact that opens there (NC)
 PIN_BATTERY = 3  # None: not measured
 PIN_BUTTON = 9  # on the board; None: serial commands alone
+PIN_STEER_LEFT = None  # of the steering wheel's motor; None: it has none
+PIN_STEER_RIGHT = None
+STEER_V = None  # what that motor gets from any battery
+STEER_MS_PER_DEG = None  # of a turn; to calibrate it, see README.md
+STEER_MAX_MS = None  # it is off after this at the latest
 PWM_HZ = 20000
 PWM_CAP = 1.0  # largest share of PWM: keeps gearbox and winding within their limits on a full battery
 BATTERY_DIVIDER = 2.0  # battery's voltage over that at its pin; to calibrate it, see README.md

@@ -58,7 +58,7 @@ class Winder:
             self._released = False
             return self._enter(IDLE, now_ms, "stopped; the springs may be loaded")
         if self.state == WINDING:
-            if self._is_low(now_ms, battery_v):
+            if self.is_low(now_ms, battery_v):
                 return self._enter(
                     REFUSED, now_ms, "battery low, the springs may be loaded: wait and wind again, or charge it"
                 )
@@ -139,7 +139,7 @@ class Winder:
         least_v = self.numbers.BATTERY_EMPTY_V if self._begun else self.numbers.BATTERY_MIN_V
         return battery_v is not None and battery_v < least_v
 
-    def _is_low(self, now_ms, battery_v):
+    def is_low(self, now_ms, battery_v):
         """Tell whether the loaded battery has been low for a while."""
         if battery_v is None or battery_v >= self.numbers.BATTERY_EMPTY_V - self.numbers.BATTERY_SAG_V:
             self._low_since_ms = None
@@ -188,3 +188,56 @@ class Row:
         rests_ms = min(winder.rests_ms(now_ms), now_ms - self._begun_ms)
         rested = rests_ms >= (self._wait_ms if winder.state == READY else numbers.REST_MS)
         return winder.state == IDLE and (rested or not winder.jumps), winder.state == READY and rested
+
+
+class Wheel:
+    """The steering wheel: it turns the robot by an angle, by time, while it is wound and nothing else moves.
+
+    A turn ends with its time, on `stop`, on a low battery, and with the state `ready`: then motor and springs have
+    other things to do. `said` is what happened last.
+    """
+
+    def __init__(self, winder):
+        self.winder = winder
+        self.said = ""
+        self._left = True
+        self._until_ms = 0
+
+    @property
+    def turning(self):
+        """Whether it turns."""
+        return self._until_ms > 0
+
+    def turn(self, now_ms, degrees):
+        """Begin to turn by so many degrees, to the left where positive, or say why not."""
+        numbers = self.winder.numbers
+        if self.winder.state != READY:
+            self.said = "it turns only while it is wound: wind first"
+            return
+        self._left = degrees > 0
+        self.winder.is_low(now_ms, None)  # what was low before does not count
+        last = min(abs(degrees) * numbers.STEER_MS_PER_DEG, numbers.STEER_MAX_MS)
+        self._until_ms = now_ms + int(last)
+        self.said = "turning by %d degrees, %.1f s" % (degrees, last / 1000)
+
+    def stop(self):
+        """Stop, and let it be said."""
+        if self.turning:
+            self._until_ms, self.said = 0, "the turn was stopped"
+
+    def step(self, now_ms, battery_v=None):
+        """Return the shares of PWM of left and right turn; the motor gets the same voltage from any battery.
+
+        In the pauses of PWM the current flows on against the battery: the mean voltage is 2*share - 1 of it.
+        """
+        if not self.turning:
+            return 0.0, 0.0
+        numbers = self.winder.numbers
+        if self.winder.state != READY or self.winder.is_low(now_ms, battery_v):
+            self.stop()
+        elif now_ms >= self._until_ms:
+            self._until_ms, self.said = 0, "turned"
+        if not self.turning:
+            return 0.0, 0.0
+        share = min(1.0, 0.5 + 0.5 * numbers.STEER_V / (battery_v or numbers.BATTERY_MIN_V))
+        return (share, 0.0) if self._left else (0.0, share)
