@@ -26,9 +26,23 @@ USED_AS = {
     "springs": "[bought] spring",
     "rods": "[bought] axle",
     "pads": "[ground] pad, [body] stop_pad",
+    "small_motors": "[steering] motor, besides motors",
 }
 """Every kind that is listed, and where its names are used."""
-GROUPS = {"parts": ("kits", "motors", "batteries", "boards", "components", "bearings", "springs", "rods", "pads")}
+GROUPS = {
+    "parts": (
+        "kits",
+        "motors",
+        "batteries",
+        "boards",
+        "components",
+        "bearings",
+        "springs",
+        "rods",
+        "pads",
+        "small_motors",
+    )
+}
 """Names for several kinds."""
 FOLDERS = {"templates": "robots", "workshops": "workshops", "settings": "settings"}
 """Kinds whose files begin with a comment that describes them, and their folders."""
@@ -88,7 +102,7 @@ def described(kind: str) -> dict[str, str]:
         return {name: f"{words} ({units[name]})" if units[name] else words for name, words in FIGURES.items()}
     from jumpcad.catalogue import load_catalogue
 
-    words = IN_WORDS.get(kind, lambda one: str(one.description).rstrip(","))
+    words = IN_WORDS.get(kind.removeprefix("small_"), lambda one: str(one.description).rstrip(","))
     return {name: words(part) for name, part in getattr(load_catalogue(), kind).items()}
 
 

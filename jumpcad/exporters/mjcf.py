@@ -167,6 +167,7 @@ def _hinge(joint: Joint, mechanism: Multibody, settings: Settings) -> Attributes
             found["stiffness"] = spring.stiffness_nm_per_rad
             if spring.preload_rad:
                 found["springref"] = spring.preload_rad
+    found |= {"armature": joint.armature_kg_m2} if joint.armature_kg_m2 else {}
     found |= _limit(joint, mechanism, settings)
     if friction and isinstance(mechanism, Mechanism):
         found |= {"solreffriction": stiff(settings)["solref"], "solimpfriction": IMPEDANCE}

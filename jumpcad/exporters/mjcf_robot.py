@@ -15,14 +15,13 @@ from typing import TYPE_CHECKING
 from jumpcad.collision.hulls import Capsule, body_hulls, cage_capsules
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
-from jumpcad.exporters.steered import WHEEL, SteerDrive, on_its_wheel, steer_drive, steered
+from jumpcad.exporters.steered import WHEEL, on_its_wheel, steered, wheel_of
 from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
 from jumpcad.files.rendering import fill, render
 from jumpcad.mechanism.model import BODY, FOOT, Body, Mechanism
 from jumpcad.mechanism.poses import release_pose, standing
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.limits import steers
-from jumpcad.robot.steering.place import Steering
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
@@ -67,7 +66,7 @@ def readme(robot: Robot) -> str:
         "newest": NEWEST_MUJOCO,
         "foot": rubs.contact("foot"),
         "body": rubs.contact("body"),
-        "steer": steers(robot) if robot.layout.of(Steering) else None,
+        "steer": steers(robot) if wheel_of(robot) else None,
     }
     return render("mjcf/README.md.j2", values)
 
@@ -77,7 +76,10 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
 
     Without `looks` it has no files of meshes beside it; with `floor` it stands on one.
     """
-    settings, steer = Settings(dt_s=SUBSTEPS * STEP_S), steer_drive(mechanism)
+    settings, steer = (
+        Settings(dt_s=SUBSTEPS * STEP_S),
+        steers(mechanism) if isinstance(mechanism, Robot) and wheel_of(mechanism) else None,
+    )
     mechanism, visible = steered(mechanism, visible)
     hulls, seen = body_hulls(mechanism, visible), visible if looks else ()
     spring, hold = mechanism.spring, HOLD * mechanism.spring.peak_torque_nm
@@ -90,7 +92,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
         keys["released"] = on_its_wheel(mechanism, release_pose(mechanism)), (0.0, *still)
     return filled(
         mechanism, settings, shortened,
-        {name: [*_shapes(mechanism, body, seen, name in hulls, steer)] for name, body in mechanism.bodies.items()},
+        {name: [*_shapes(mechanism, body, seen, name in hulls)] for name, body in mechanism.bodies.items()},
         {name: (pose, {"ctrl": ctrl}) for name, (pose, ctrl) in keys.items()},
         tendons=[*springs(mechanism), (spring.joint, limit)],
         floor=FLOOR if floor else {},
@@ -105,7 +107,7 @@ def write_robot(mechanism: Mechanism, visible: Sequence[Visual] = (), looks: boo
 
 
 def _shapes(
-    mechanism: Mechanism, body: Body, visible: Sequence[Visual], has_hull: bool, steer: SteerDrive | None
+    mechanism: Mechanism, body: Body, visible: Sequence[Visual], has_hull: bool
 ) -> Iterator[tuple[str, Attributes]]:
     """Yield what is seen of a body, what collides, and the volumes of its touch sensors."""
 
@@ -124,8 +126,8 @@ def _shapes(
                        **_softness(rod, mechanism.mass_kg))  # fmt: skip
     for one in body.contacts:
         rolls: Attributes = {"type": "sphere", "pos": one.centre_m, "size": one.radius_m}
-        if steer and body.name == WHEEL:  # round across its rim too
-            rolls = {"type": "ellipsoid", "size": (steer.half_width_m, one.radius_m, one.radius_m)}
+        if body.name == WHEEL and (place := wheel_of(mechanism)):  # round across its rim too
+            rolls = {"type": "ellipsoid", "size": (place.half_width_mm / 1000.0, one.radius_m, one.radius_m)}
         yield collides(f"{body.name}_{one.name}", **rolls)
     for one in (contact for contact in body.contacts if contact.surface == FOOT):
         yield "site", {"name": one.name, "pos": one.centre_m, "size": TOUCH * one.radius_m}

@@ -5,7 +5,7 @@ The project's own engines carry it with the body: it is in the air while they pu
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
@@ -23,26 +23,14 @@ from jumpcad.transforms import chained, in_metres, rotation_about_y
 WHEEL, STEER = "wheel", "steer"
 """Names of its body and of its joint."""
 AXLE = "1 0 0"
+N20_MM = 10.0
+"""Width of the motors whose rotor's inertia a workshop gives; that of others grows with the fifth power of theirs."""
 AnyMechanism = TypeVar("AnyMechanism", bound=Mechanism)
 
 
-@dataclass(frozen=True)
-class SteerDrive:
-    """What turns the wheel, for actuators: largest torque, speed without load, its fall with torque, half width."""
-
-    torque_nm: float
-    free_rad_s: float
-    nms_per_rad: float
-    half_width_m: float
-
-
-def steer_drive(mechanism: Mechanism) -> SteerDrive | None:
-    """Return the drive of a robot's wheel on a battery of nominal voltage; None without one."""
-    if not isinstance(mechanism, Robot) or (place := mechanism.layout.of(Steering)) is None:
-        return None
-    found = steers(mechanism)
-    slope = found.stall_nm / found.free_rad_s
-    return SteerDrive(found.gears_nm, found.free_rad_s, slope, place.half_width_mm / 1000.0)
+def wheel_of(mechanism: Mechanism) -> Steering | None:
+    """Return where a robot's wheel is; None without one."""
+    return mechanism.layout.of(Steering) if isinstance(mechanism, Robot) else None
 
 
 def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[AnyMechanism, Sequence[Visual]]:
@@ -64,8 +52,13 @@ def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[An
     bodies[WHEEL] = Body(WHEEL, seen.mass_kg, seen.com_m, seen.inertia_kg_m2, (touches,))
     drive = steers(mechanism)
     tilt = -np.radians(place.turn_deg)
-    joint = Joint(STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm,
-                  drive.free_rad_s, axis=AXLE)  # fmt: skip
+    low, high = mechanism.workshop.release.rotor_kg_m2
+    narrow = min(place.motor.width_mm, place.motor.height_mm) / N20_MM
+    rotor = math.sqrt(low * high) * narrow**5 * place.motor.ratio**2
+    joint = Joint(
+        STEER, BODY, WHEEL, T_body_wheel[:3, 3], float(tilt), -np.inf, np.inf, drive.gears_nm, drive.free_rad_s,
+        axis=AXLE, armature_kg_m2=rotor,
+    )  # fmt: skip
     moved = [
         replace(one, body=WHEEL, T_body_mesh=chained(T_wheel_body, one.T_body_mesh)) if one.name in WHEEL_PARTS else one
         for one in visible

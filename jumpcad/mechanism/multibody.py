@@ -58,7 +58,7 @@ class Joint(ByValue):
     `lower_rad` and `upper_rad` bound q as far as the mechanism goes: with `stops` they stop it, otherwise they are
     information for exporters. `effort_nm` and `velocity_rad_s` are the joint's largest torque and speed, for the URDF's
     limits; `friction_nm` is its dry friction; `loaded_rad` its coordinate with loaded springs, where that is stated. A
-    wheel that is no hinge of the mechanism has another `axis`, and infinite bounds.
+    wheel that is no hinge of the mechanism has another `axis`, infinite bounds, and its motor's inertia.
     """
 
     name: str
@@ -74,6 +74,7 @@ class Joint(ByValue):
     stops: bool = False
     loaded_rad: float | None = None
     axis: str = "0 1 0"
+    armature_kg_m2: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

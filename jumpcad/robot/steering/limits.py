@@ -21,8 +21,8 @@ TURN_DEG = 90.0
 """Turn whose energy is a figure."""
 ROUGHEST = 1.2
 """Largest friction of rubber on a floor; judgement: on dry concrete up to 1.0."""
-GRIP, LOADED = 1.5, 3.0
-"""Least grip of the wheel over what it needs, and least share of the weight (%) on each support; judgement."""
+GRIP = 1.5
+"""Least grip of the wheel over what it needs; judgement."""
 GIVEN, POSITIONS = 20.0, 200
 """Largest share of the springs' energy (%) that is given before the wheel is in the air; judgement: the foot stands
 still until then. Leg angles at which that is looked at."""
@@ -39,9 +39,9 @@ BASIS = {
         f"geometry; Shigley, table A-9; limit: simulated, at {LEAST_MM:g} mm a soft floor begins to let it slip",
     ),
     "steering_stands": Basis(
-        f"least share of the weight on front eye, wheel and the toe to which it leans ≥ {LOADED:g} %; it leans by "
-        "dip·(eye to toe)/(eye to wheel)/(half width of the toes)",
-        "statics of three supports; limit: judgement",
+        "share of the weight on the toe to which the robot leans ≥ 0 %, by dip·(eye to toe)/(eye to wheel)/(half width "
+        "of the toes); its other supports are that edge of the nose and the wheel, which rolls below its axle",
+        "statics of three supports",
     ),
     "steering_air": Basis(
         f"share of the springs' energy given until the wheel is above the feet's plane ≤ {GIVEN:g} %, the foot flat; "
@@ -120,12 +120,14 @@ def steers(robot: Robot) -> Steers:
     ahead, aside, height = _centre_mm(robot, place)
     lever, half_width, middle = place.lever_mm, layout.toe_half_width_mm, float(place.T_body_axle[1, 3])
     toe_x = layout.design.l4_mm - float(toe_tip_mm(layout.design)[0])  # behind the front eye
-    off = aside - middle * (lever - ahead) / lever  # of the line from eye to wheel
+    side = math.copysign(1.0, aside - middle * (lever - ahead) / lever)  # of the line from eye to wheel
     lean = place.dip_mm * toe_x / lever / half_width
-    toe = (abs(off) + height * lean) / (half_width - math.copysign(middle, off) * toe_x / lever)
-    wheel = (lever - ahead - toe * toe_x) / lever
-    loads = robot.mass_kg * GRAVITY_M_S2 * np.array([1.0 - toe - wheel, wheel, toe])
-    slides = float(loads[2]) * math.hypot(toe_x, half_width) + float(loads[0]) * layout.lateral.lug_left[1]
+    nose = layout.lateral.lug_left[1]  # on whose edge it leans; the wheel rolls sideways below its axle
+    places = [[1.0, 1.0, 1.0], [0.0, lever, toe_x], [side * nose, middle, side * half_width]]
+    aside += side * (height - place.radius_mm) * lean
+    weight = robot.mass_kg * GRAVITY_M_S2
+    loads: Array = np.asarray(weight * np.linalg.solve(places, [1.0, lever - ahead, aside]), dtype=float)
+    slides = max(float(loads[2]), 0.0) * math.hypot(toe_x, half_width) + float(loads[0]) * nose
     need = robot.workshop.ground.foot_friction * slides / lever * place.radius_mm / 1000.0
     gears = place.motor.torque_max_nm or robot.workshop.safety.motor_torque_max_nm
     # a wheel that is blocked slips, so that its gears do not limit the voltage
@@ -164,10 +166,10 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
     )  # fmt: skip
     shares = 100.0 * found.loads_n / found.loads_n.sum()
     yield at_least(
-        "steering_stands", float(shares.min()), LOADED, "%",
-        f"on its wheel it leans by {found.lean_deg:.1f}°; front eye, wheel and toe bear {shares[0]:.0f}, "
-        f"{shares[1]:.0f} and {shares[2]:.0f} % of the weight; {LOADED:g} % are needed",
-        higher("steering.behind_mm", "body.toe_half_width_mm"),
+        "steering_stands", float(shares[2]), 0.0, "%",
+        f"on its wheel it leans by {found.lean_deg:.1f}°; nose, wheel and toe bear {shares[0]:.0f}, {shares[1]:.0f} "
+        f"and {shares[2]:.1f} % of the weight; below 0 both toes lift, and it stands on nose and wheel",
+        higher("steering.dip_mm") + lower("body.toe_half_width_mm"), "warning",
     )  # fmt: skip
     yield _air(robot, place)
     most = ROUGHEST * float(found.loads_n[1]) * place.radius_mm / 1000.0
