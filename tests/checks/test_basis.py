@@ -30,6 +30,7 @@ NOT_MET = {
     "body_contact",
     "cage_rights",
     "stop_creep",
+    *(name for name in BASES if name.startswith("steering_")),
 }
 """In the robots of the reference; they are told of others."""
 YES_OR_NO = {"wiring_pins", "wiring_strapping", "wiring_ground", "wiring_cut_off", "wiring_capacitor", "wiring_diode"}
