@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
@@ -173,7 +174,6 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         self.robot = robot if isinstance(robot, Robot) else robot_of(robot, workshop)
         self._robots = variants(self.robot, made) if made else (self.robot,)
         self._arenas: dict[int, Arena] = {}
-        self._renderers: dict[tuple[Obstacle, ...], Renderer] = {}
         self._start, self._control, self._steps_mm = start, control, (steps_mm[0], steps_mm[1])
         self._scattered, self._episode_s, self._step_s = made > 0, episode_s, step_s
         self.render_mode = render_mode
@@ -206,6 +206,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
             raise JumpcadError(f"start = {start!r}: must be one of {', '.join(map(repr, get_args(Start)))}")
         if options and "obstacles" in options:
             self._obstacles, self._arenas = _obstacles(options["obstacles"]), {}
+            self.__dict__.pop("_renderer", None)
         arena = self._arena = self._arena_of(int(rng.integers(len(self._robots))))
         arena.stand_on(scattered_floor(rng) if self._scattered else Floor())
         if start == "lying":
@@ -308,13 +309,11 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         x, height = self._step_at
         return None if height == 0.0 else STEP.model_copy(update={"at_m": (x, 0.0), "height_mm": 1000.0 * height})
 
-    @property
+    @cached_property
     def _renderer(self) -> Renderer:
-        if self._obstacles not in self._renderers:
-            boxes = [trimesh.creation.box(extents=2000.0 * np.array(one.half_m)) for one in (STEP, *self._obstacles)]
-            things = [(thing.mesh, thing.colour) for thing in visuals(self.robot)]
-            self._renderers = {self._obstacles: Renderer([*things, *((box, (0.8, 0.8, 0.78)) for box in boxes)])}
-        return self._renderers[self._obstacles]
+        boxes = [trimesh.creation.box(extents=2000.0 * np.array(one.half_m)) for one in (STEP, *self._obstacles)]
+        things = [(thing.mesh, thing.colour) for thing in visuals(self.robot)]
+        return Renderer([*things, *((box, (0.8, 0.8, 0.78)) for box in boxes)])
 
     def _arena_of(self, number: int) -> Arena:
         if number not in self._arenas:

@@ -62,7 +62,7 @@ FIGURES = JUMP_FIGURES | {
     "robust_pitch_deg": "worst pitch at touchdown of robots as made, either way, on any floor; where asked for",
     "rights_itself": "share of attitudes from which it rolls onto its feet (stable poses); where asked for",
     "turn_per_rev_deg": "turn of the robot for one turn of its steering wheel; of robots with one",
-    "turn_rate_deg_s": "rate at which it turns, the battery's voltage nominal; likewise",
+    "steering_rate_deg_s": "rate at which it turns, the battery's voltage nominal; likewise",
     "steering_margin_mm": "how far below the feet's plane the loaded robot's wheel is at the worst; likewise",
     "turn_energy_j": "electrical energy of a turn by 90°; likewise",
     "body_mass_kg": "mass of the body",

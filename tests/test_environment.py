@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 from support import needs
 from support.built import built
+from support.workshops import workshop_with
 
 import jumpcad
-from jumpcad.environment import RELEASE, WAIT, WIND
+from jumpcad.environment import LEFT, RELEASE, WAIT, WIND
 from jumpcad.errors import JumpcadError
 from jumpcad.landing.obstacles import Obstacle
+from jumpcad.workshop import load_workshop
 
 gymnasium = needs.package("gymnasium")
+WALL = {"kind": "wall", "at_m": (0.3, 0.0), "height_mm": 300.0}
 NAMES = list(jumpcad.JumpEnv.OBSERVATIONS)
 
 
@@ -26,7 +29,10 @@ def test_gymnasium_s_checker_finds_nothing_wrong() -> None:
     from gymnasium.utils.env_checker import check_env
 
     kenan = built("kenan-2.0")
-    for options in ({"steps_mm": (10.0, 60.0), "render_mode": "rgb_array"}, {"start": "lying", "control": "torque"}):
+    for options in (
+        {"steps_mm": (10.0, 60.0), "render_mode": "rgb_array", "picture": (120, 80), "obstacles": [WALL]},
+        {"start": "lying", "control": "torque", "target_m": (2.0,)},
+    ):
         check_env(jumpcad.JumpEnv(kenan, **options), skip_render_check=False)
 
 
@@ -90,6 +96,44 @@ def test_a_step_bears_what_falls_on_it() -> None:
     assert heights[1] - heights[0] == pytest.approx(0.2, abs=0.002)
 
 
+def test_a_target_rewards_what_comes_nearer_and_ends_the_episode_there() -> None:
+    """The rewards of a jump are by how much its distance from the target fell; 1 more where it ends."""
+    env = jumpcad.JumpEnv(built("kenan-2.0"), target_m=(0.45, 0.0), step_s=0.02)
+    observed, _ = env.reset(seed=0)
+    assert (of(observed, "target_ahead"), of(observed, "target_left")) == pytest.approx((0.45, 0.0), abs=1e-5)
+    rewards, there, over = 0.0, False, False
+    while not (there or over):
+        observed, reward, there, over, _ = env.step(RELEASE)
+        rewards += reward
+    left_m = math.hypot(of(observed, "target_ahead"), of(observed, "target_left"))
+    assert there
+    assert left_m <= 0.35
+    assert rewards == pytest.approx(0.45 - left_m + 1.0, abs=1e-5)
+
+
+def test_a_wall_is_where_it_is_placed_and_stops_a_jump() -> None:
+    env = jumpcad.JumpEnv(built("kenan-2.0"), episode_s=2.0)
+    ways = []
+    for obstacles in ([], [WALL], [WALL | {"at_m": (-0.3, 0.0), "facing_deg": 180.0}]):
+        env.reset(seed=0, options={"obstacles": obstacles})
+        ways.append(sum(env.step(RELEASE)[1] for _ in range(40)))
+    assert ways[1] < ways[0] - 0.02
+    assert ways[2] == pytest.approx(ways[0], abs=1e-6)
+
+
+@pytest.mark.thorough
+def test_a_wheel_is_a_second_action_that_turns_the_target_aside() -> None:
+    shop = workshop_with(load_workshop("best-jumper"), steering={"wheel": "o-ring"})
+    env = jumpcad.JumpEnv(jumpcad.build(jumpcad.load_design("best-jumper"), shop), target_m=(2.0, 0.0))
+    env.reset(seed=0)
+    for _ in range(20):
+        observed, *_ = env.step((WAIT, LEFT))
+    angle = math.degrees(math.atan2(of(observed, "target_left"), of(observed, "target_ahead")))
+    assert -20.0 < angle < -8.0  # to the right of a robot that turned left by some 15°/s for 1 s
+    with pytest.raises(JumpcadError, match=r"the wheel's 0 \(stand\), 1 \(left\) or 2 \(right\)"):
+        env.step(WAIT)
+
+
 def test_seeds_decide_and_robots_as_made_are_not_alike() -> None:
     env = jumpcad.JumpEnv(built("kenan-2.0"), made=3)
     seen: dict[int, list[float]] = {}
@@ -114,6 +158,9 @@ def test_wrong_arguments_are_one_line() -> None:
         ({"steps_mm": (60.0, 10.0)}, "must be the least and the largest height"),
         ({"step_s": 0.0}, "step_s = 0: must be above 0"),
         ({"step_s": None}, r"JumpEnv\(\) takes a number as step_s, not None"),
+        ({"target_m": (1.0, 2.0, 3.0)}, "target_m = .*: must be x and y, or one distance"),
+        ({"picture": (0, 10)}, "picture = .*: must be width and height, 16 to 4096 pixels"),
+        ({"obstacles": [{"kind": "hole"}]}, "'bar', 'step' or 'wall'"),
         ({"steps_mm": (1.0,)}, "must be the least and the largest height"),
         ({"workshop": "default"}, "takes a Workshop"),
     ):

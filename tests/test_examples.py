@@ -23,6 +23,7 @@ EXAMPLES = {
     "pareto_front": ["--model", "capsule", "--evaluations", "24", "--folder", "out"],
     "custom_printer": ["--folder", "out"],
     "when_to_release": ["--episodes", "2"],
+    "learn_to_steer": ["--rounds", "1", "--episodes", "1", "--candidates", "2", "--workers", "1"],
     "remote": ["wind", "turn 30", "jump", "turn 30", "--port", "/dev/ttyACM0"],
 }
 
@@ -96,6 +97,14 @@ def test_a_rule_jumps_farther_than_chance(run):
     ways = dict(re.findall(r"^(\S[\w ]+?) +(-?\d+) mm in 30 s", run("when_to_release"), re.M))
     assert len(ways) == 4
     assert int(ways["at once"]) > int(ways["by chance"])
+
+
+@pytest.mark.thorough
+def test_learning_to_steer_tries_new_points():
+    pytest.importorskip("gymnasium")
+    command = [sys.executable, str(ROOT / "examples" / "learn_to_steer.py"), *EXAMPLES["learn_to_steer"]]
+    said = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"PYTHONPATH": str(ROOT)}).stdout
+    assert len(re.findall(r"\d of 5 new points at 1\.3 m reached", said)) == 2
 
 
 def test_remote_sends_each_command_once_the_one_before_has_ended(run, monkeypatch: pytest.MonkeyPatch):

@@ -172,7 +172,7 @@ class Arena:
         does, drive = steers(self.robot), self.data.actuator("steer")
         drive.ctrl = math.copysign(does.free_rad_s, angle_deg)
         for _ in range(TURN_LOOKS):
-            self.step(abs(angle_deg) / does.figures["turn_rate_deg_s"] / TURN_LOOKS, quiet=True)
+            self.step(abs(angle_deg) / does.figures["steering_rate_deg_s"] / TURN_LOOKS, quiet=True)
             look()
         drive.ctrl = 0.0
         self.step(STILL_S, quiet=True)

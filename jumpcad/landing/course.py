@@ -185,7 +185,7 @@ def trips(
         raise JumpcadError(f"heading_noise_deg = {heading_noise_deg:g}: must be at least 0 and at most 180")
     if robot.layout.of(Steering) is None:
         raise JumpcadError(f'{robot.name} has no steering: set [steering] wheel = "o-ring" in its workshop')
-    if steers(robot).figures["turn_rate_deg_s"] == 0.0:
+    if steers(robot).figures["steering_rate_deg_s"] == 0.0:
         raise JumpcadError(f"{robot.name} does not turn: the floor stalls its wheel; choose a stronger steering.motor")
     arena = Arena(robot, settings, course.obstacles)
     arena.stand("home")

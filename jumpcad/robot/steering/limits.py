@@ -106,7 +106,7 @@ class Steers:
         rate = self.turn_per_rev_deg * speed_rad_s / (2.0 * math.pi)
         return {
             "turn_per_rev_deg": self.turn_per_rev_deg,
-            "turn_rate_deg_s": rate,
+            "steering_rate_deg_s": rate,
             "steering_margin_mm": self.margin_mm,
             "turn_energy_j": self.power_w * TURN_DEG / rate if rate > 0.0 else math.inf,
         }
