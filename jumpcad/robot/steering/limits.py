@@ -66,7 +66,7 @@ BASIS = {
     ),
     "steering_tail": Basis(
         "3·F·x/(w·t²) ≤ strength_in_plane_mpa/s of the body (MPa), two tails of the plates that bend sideways: F "
-        "friction of a blow as in `steering_mount`, x from around the leg's axle to the tabs, w as there",
+        "friction of a landing as in `steering_mount`, x from around the leg's axle to the tabs, w as there",
         "cantilever: Roark, ch. 8",
     ),
     "steering_supply": Basis(
