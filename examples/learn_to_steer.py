@@ -16,10 +16,8 @@ from multiprocessing import get_context
 import numpy as np
 
 import jumpcad
-from jumpcad.workshop import load_workshop, varied
 
-DESIGN = "best-jumper"
-CHANGED: dict[str, float | str] = {"steering.wheel": "o-ring", "cage.rear_behind_mm": 40.0}
+DESIGN = "best-steered"
 AWAY_M, BEST = 1.3, 0.25
 WAIT, WIND, RELEASE = range(3)
 STAND, LEFT, RIGHT = range(3)
@@ -28,8 +26,7 @@ STAND, LEFT, RIGHT = range(3)
 @cache
 def environment() -> jumpcad.JumpEnv:
     """Return the environment, built once in each process."""
-    robot = jumpcad.build(jumpcad.load_design(DESIGN), varied(load_workshop(DESIGN), CHANGED))
-    return jumpcad.JumpEnv(robot, target_m=(AWAY_M,), episode_s=60.0, step_s=0.1)
+    return jumpcad.JumpEnv(jumpcad.build(DESIGN), target_m=(AWAY_M,), episode_s=60.0, step_s=0.1)
 
 
 def action(seen: dict[str, float], weights: np.ndarray) -> tuple[int, int]:

@@ -98,7 +98,9 @@ def test_files_that_build_on_each_other_in_a_circle_are_told(files, written):
 
 
 def test_an_unknown_workshop_is_refused_with_the_known_ones():
-    with pytest.raises(JumpcadError, match="one of the workshops best-jumper, default, fine, first-robot, light"):
+    with pytest.raises(
+        JumpcadError, match="one of the workshops best-jumper, best-steered, default, fine, first-robot, light"
+    ):
         load_workshop("kitchen")
 
 
