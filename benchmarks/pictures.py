@@ -1,4 +1,4 @@
-"""The pictures of README and docs: a jump of Kenan 2.0 from winding to flight, three jumps of best-jumper, stills.
+"""The pictures of README and docs: a jump of Kenan 2.0, three of best-jumper, best-steered around a square, stills.
 
     python benchmarks/pictures.py [FOLDER [calibration|coupon|front|history|plate|report|sweeps ...]]
 
@@ -27,6 +27,7 @@ from jumpcad.bundle.viewer import viewer_data
 from jumpcad.cli.commands import run
 from jumpcad.design import load_design
 from jumpcad.exporters import threemf
+from jumpcad.landing.course import Course, go
 from jumpcad.landing.series import jumps
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
@@ -37,8 +38,9 @@ from jumpcad.transforms import Array
 from jumpcad.workshop import load_workshop, own_workshop
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
-ROBOT, JUMPER = "kenan-2.0", "best-jumper"
-WIDE = (720, 300)
+ROBOT, JUMPER, STEERED = "kenan-2.0", "best-jumper", "best-steered"
+WIDE, SMALL = (720, 300), (480, 260)
+SQUARE = Course(points_m=((1.2, 0.0), (1.2, 1.2), (0.0, 1.2), (0.0, 0.0)))
 PX_PER_MM, EDGE_PX = 1.6, 46.0
 COLOURS = {BODY: "#4a4f57", MAIN_LEG: "#1f6fb2", FRONT_LINK: "#c8641a", FOOT: "#2f8f4e"}
 STILLS = {
@@ -220,6 +222,10 @@ def main() -> None:
     (folder / "mechanism.svg").write_text(mechanism_svg(robot, data), encoding="utf-8")
     row = viewer_data(jumper, simulate(jumper, settings, "planar"), jumps(jumper, 3, record=True))
     (folder / "jumps.gif").write_bytes(motion_gif(jumper, row, WIDE, View(yaw_deg=-78.0, pitch_deg=12.0)))
+    steered = build(load_design(STEERED), load_workshop(STEERED), STEERED)
+    trip = go(steered, SQUARE, 1, record=True).trips[0]
+    way = viewer_data(steered, simulate(steered, settings, "planar"), trip)
+    (folder / "square.gif").write_bytes(motion_gif(steered, way, SMALL, View(yaw_deg=-62.0, pitch_deg=24.0)))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ and the published settings of the genetic algorithm are run too, and CMA-ES (pyc
 other projects. "GP-EI, spread start" has no designs ranked by a quick robot first; on the capsule robot it is "GP-EI".
 Run `python benchmarks/search.py [--seeds N] [--methods a,b] [--model printed] [--evaluations N] [--json]`; in a
 method's name, write `;` for a comma. All of it takes about a quarter of an hour on the capsule robot.
-`--required --seeds 8 --evaluations 45` shows what requirements cost a search of the printed robot.
+`--required --study --seeds 8 --evaluations 60` shows what requirements cost within the study's bounds.
 
 Searches of the printed robot in docs/speed.md and docs/decisions/default-search.md have seeds 0 to 7, the extra `fast`
 and a machine with nothing else to do, on which a published simulation takes 35 to 43 ms.
@@ -16,7 +16,7 @@ import argparse
 import json
 import math
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from itertools import accumulate
@@ -24,7 +24,7 @@ from itertools import accumulate
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.design import Design
+from jumpcad.design import SEARCH_BOUNDS, Design
 from jumpcad.search.models import PrintedModel, RobotModel, robot_model
 from jumpcad.search.propose.bayesian import run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
@@ -34,6 +34,7 @@ from jumpcad.search.study.objective import Objective
 from jumpcad.search.study.pool import local_pool
 from jumpcad.search.study.request import Request, Stage, default_initial
 from jumpcad.search.study.store import StudyStore
+from jumpcad.search.study.variant import NOTHING
 
 MARKS = (40, 60, 100, 200, 250, 500, 1000)
 
@@ -138,9 +139,12 @@ REQUIRED = {
 idle` add to `one` its best designs keep."""
 
 
-def climb(method: Callable[..., None], seed: int, evaluations: int, model: RobotModel) -> Scores:
+def climb(
+    method: Callable[..., None], seed: int, evaluations: int, model: RobotModel,
+    bounds: Mapping[str, tuple[float, float]] = NOTHING,
+) -> Scores:  # fmt: skip
     """Return the best score so far after each evaluation."""
-    request = Request(Space.make(workshop=model.workshop), model, model.default_objective)
+    request = Request(Space.make(bounds=bounds, workshop=model.workshop), model, model.default_objective)
     with StudyStore.write(None, request.identity([])) as store, local_pool(0) as pool:
         evaluator = Evaluator(request, store, pool)
         method(evaluator, seed, evaluations)
@@ -155,6 +159,7 @@ def main() -> None:
     parser.add_argument("--model", default="capsule")
     parser.add_argument("--evaluations", type=int, default=1000, help="at most, of every method")
     parser.add_argument("--required", action="store_true", help="GP-EI on the printed robot with requirements instead")
+    parser.add_argument("--study", action="store_true", help="within the study's bounds")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
@@ -168,7 +173,8 @@ def main() -> None:
             model = replace(model, stand_in=True)
         if "spread" in name:
             model = Spread(workshop=model.workshop, settings=model.settings, engine=model.engine)
-        climbs = [climb(method, seed, evaluations, model) for seed in range(arguments.seeds)]
+        bounds = SEARCH_BOUNDS if arguments.study else NOTHING
+        climbs = [climb(method, seed, evaluations, model, bounds) for seed in range(arguments.seeds)]
         marks = [mark for mark in MARKS if mark <= evaluations]
         table[name] = {mark: [one[min(mark, len(one)) - 1] for one in climbs] for mark in marks}
         if not arguments.json:
