@@ -43,7 +43,7 @@ WorkshopOption = Annotated[
     str | None,
     typer.Option(
         help="Workshop of the printed robot: a template's name or a file.",
-        show_default="default; best-jumper and first-robot have their own",
+        show_default="default; best-jumper, best-steered and first-robot have their own",
         autocompletion=completion("workshops"),
     ),
 ]
