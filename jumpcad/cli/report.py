@@ -48,9 +48,9 @@ def report(
 ) -> None:
     """Write report.html: one file, without network, with the robot in 3-D; of a study, its designs and plots."""
     if subject.endswith(STUDY) and not os.path.isdir(subject):
-        given = {"jumps": row, "to": to, "course": course, "next": what_next}
-        if asked := next((name for name, value in given.items() if value), ""):
-            raise JumpcadError(f"--{asked}: {subject} is a study, which does not jump; leave it out")
+        given = {f"--jumps {row}": row, f"--to {to}": to, f"--course {course}": course, "--next": what_next}
+        for option in (option for option, value in given.items() if value):
+            raise JumpcadError(f"{option}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
         series = partial(recorded, row=row, to=to, course=course)

@@ -26,6 +26,13 @@ def test_the_page_of_a_bundle_takes_its_place_and_is_in_the_manifest(run: Run, b
     assert json.loads(asked)["next"][0]["limit"] in (copy / "report.html").read_text().partition("next step")[2]
 
 
+def test_what_a_study_has_not_is_refused_with_its_value(run: Run) -> None:
+    for asked in (["--jumps", "3"], ["--to", "3,0"], ["--course", "c.toml"], ["--next"]):
+        code, _, err = run("report", "s.db", *asked)
+        assert (code, err.count("\n")) == (2, 1)
+        assert f"{' '.join(asked)}: s.db is a study" in err
+
+
 def test_an_edited_page_of_a_bundle_is_not_replaced(
     run: Run, bundle: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
