@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -210,6 +211,7 @@ if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
 
 FONT = "DejaVuSans-Bold.ttf"  # shipped with the plotting library, so the same letters everywhere
+_tracing = Lock()  # a font's file is read by Python, which lets another thread in while a letter is half loaded
 TRACED_AT = 100.0  # size at which letters are traced: large enough for smooth curves, small enough for few corners
 
 
@@ -234,7 +236,8 @@ def text(label: str, height_mm: float) -> Region:
 
 def engravable(label: str) -> str:
     """Return the letters of a label that the font has: Latin, Greek, Cyrillic and some others."""
-    known = _font().get_charmap()
+    with _tracing:
+        known = _font().get_charmap()
     return "".join(letter for letter in label if ord(letter) in known)
 
 
@@ -254,8 +257,9 @@ def _letter(letter: str) -> tuple[float, list[Array]]:
     from matplotlib.ft2font import LoadFlags
     from matplotlib.path import Path as Curve
 
-    font = _font()
-    glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
-    vertices, codes = font.get_path()
+    with _tracing:
+        font = _font()
+        glyph = font.load_char(ord(letter), flags=LoadFlags.NO_HINTING)
+        vertices, codes = font.get_path()
     polygons = [np.asarray(polygon) for polygon in Curve(vertices, codes).to_polygons()] if len(vertices) else []
     return glyph.linearHoriAdvance / 65536.0, polygons

@@ -1,6 +1,8 @@
 """Flat outlines against plane geometry."""
 
 import math
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -153,3 +155,24 @@ def test_what_cannot_be_engraved_is_refused():
     for label, height in (("", 3.0), ("  ", 3.0), ("leg", 0.0)):
         with pytest.raises(JumpcadError, match="cannot be engraved"):
             text(label, height)
+
+
+def test_letters_are_the_same_when_threads_trace_them_at_once():
+    # a bundle draws its coupon and its pictures in two threads; a font that both load from ends in a crash
+    trace = outline._letter.__wrapped__
+    letters = [chr(code) for code in (*range(33, 127), *range(0x3B1, 0x3C9))]
+    alone = [trace(letter) for letter in letters]
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(4) as threads:
+            several = list(threads.map(lambda _: [trace(letter) for letter in letters], range(8)))
+    finally:
+        sys.setswitchinterval(interval)
+    for traced in several:
+        assert [advance for advance, _ in traced] == [advance for advance, _ in alone]
+        assert all(
+            np.array_equal(a, b)
+            for (_, a), (_, b) in zip(traced, alone, strict=True)
+            for a, b in zip(a, b, strict=True)
+        )
