@@ -72,7 +72,7 @@ def carry_out(link: Cable | Radio, command: str) -> bool:
         if line := link.receive():
             print(line)
             if line.startswith(ENDS.get(command.split()[0], ("",))):
-                return not line.startswith(("fault", "refused", "unknown", "it turns only"))
+                return not line.startswith(("fault", "refused", "unknown", "it turns only", "the turn was"))
     print(f"{command}: no answer in {PATIENCE_S:.0f} s")
     return False
 

@@ -121,7 +121,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
     parts = carried.components
     electronics = Electronics(
         carried.battery, carried.controller, carried.driver, carried.regulator, parts.get("plug"),
-        parts.get("capacitor"), settled.holes.fits.wall_min_mm, settled.holes.fits.sliding_mm,
+        parts.get("capacitor"), carried.gyroscope, settled.holes.fits.wall_min_mm, settled.holes.fits.sliding_mm,
         side if (side := workshop.seats.battery) in ("left", "right") else None,
         "left" if workshop.seats.boards == "left" else "right",
     )  # fmt: skip

@@ -10,12 +10,16 @@ from jumpcad.robot.robot import Robot
 
 FOLDER = "firmware"
 COPIED = ("main.py", "winder.py")
+PLAIN, MEASURED = "Row, Wheel, Winder\n", "Row, Winder\n\nfrom gyroscope import Wheel\n"
+"""What main.py imports; with a gyroscope its wheel is another."""
 
 
 def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
     """Yield path and text of every file of the firmware."""
     values = {"name": robot.name, "motor": robot.layout.drive.train.motor.name, **numbers(robot)}
-    for name in COPIED:
-        yield f"{FOLDER}/{name}", (templates_folder() / FOLDER / name).read_text(encoding="utf-8")
+    measured = bool(robot.workshop.steering.gyroscope)
+    for name in (*COPIED, "gyroscope.py")[: 2 + measured]:
+        text = (templates_folder() / FOLDER / name).read_text(encoding="utf-8")
+        yield f"{FOLDER}/{name}", text.replace(PLAIN, MEASURED) if measured else text
     yield f"{FOLDER}/robot.py", fill(f"{FOLDER}/robot.py.j2", values)
     yield f"{FOLDER}/README.md", render(f"{FOLDER}/README.md.j2", operation_values(robot))

@@ -62,6 +62,8 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
         "PIN_BUTTON": gpio(controller, controller.button) if controller.button else None,
         "PIN_STEER_LEFT": pins.get("steer"),
         "PIN_STEER_RIGHT": pins.get("steer_reverse"),
+        "PIN_GYRO_DATA": pins.get("gyro_data"),
+        "PIN_GYRO_CLOCK": pins.get("gyro_clock"),
         **_steering_numbers(robot),
         "PWM_HZ": PWM_HZ,
         "PWM_CAP": math.floor(1000.0 * supply.pwm(train.motor, torque_max)) / 1000.0,
@@ -87,7 +89,10 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
 
 
 def _steering_numbers(robot: Robot) -> dict[str, float | int | None]:
-    """Return voltage and times of the steering wheel's motor, as on an empty battery; all None without one."""
+    """Return voltage and times of the steering wheel's motor, as on an empty battery; all None without one.
+
+    A gyroscope lets a turn take twice its time.
+    """
     if (place := robot.layout.of(Steering)) is None:
         return dict.fromkeys(("STEER_V", "STEER_MS_PER_DEG", "STEER_MAX_MS"))
     slow, does = robot.supply.driven(place.motor, robot.supply.empty_v, math.inf), steers(robot)
@@ -96,7 +101,7 @@ def _steering_numbers(robot: Robot) -> dict[str, float | int | None]:
     return {
         "STEER_V": round(slow.voltage_v, 2),
         "STEER_MS_PER_DEG": round(ms, 1),
-        "STEER_MAX_MS": math.ceil(180.0 * ms),
+        "STEER_MAX_MS": math.ceil(180.0 * ms * (2.0 if robot.workshop.steering.gyroscope else 1.0)),
     }
 
 

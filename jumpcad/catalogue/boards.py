@@ -13,7 +13,7 @@ from jumpcad.files.records import Name, OptionalName, Text
 
 FUNCTIONS = ("ground", "battery", "out", "adc", "pwm", "strapping", "boot_log",
              "forward", "reverse", "sleep", "motor+", "motor-",
-             "forward2", "reverse2", "motor2+", "motor2-")  # fmt: skip
+             "forward2", "reverse2", "motor2+", "motor2-", "sda", "scl")  # fmt: skip
 """What a pin of a board can do, besides `gpio` and its number; see `Board`."""
 GPIO = re.compile("gpio([0-9]{1,6})")
 MOST_GPIO = 63
@@ -31,15 +31,15 @@ class Board(Article):
     other pins do, by their printed names: `ground` (and `battery`: of pads for a cell alone), `out`; of a controller
     `gpio6` with its number, `adc`, `pwm`, `strapping` (its level at start chooses how the chip boots), `boot_log` (the
     chip writes on it at start); of a driver `forward`, `reverse`, `sleep`, `motor+`, `motor-`, of its second bridge
-    `forward2` and the like. `diode_at` names inputs
-    that need a series diode, `button` the pin of a push button on the board. `usb_mm` is the opening (width, height)
-    that the plug of its USB socket needs, whose middle is `usb_height_mm` above the board's underside, at an end of its
-    length. `left` and `right` are the pins along its sides, from that end on, as seen from above; others are
-    underneath. `logic_v` is the level of a controller's pins, or the one that a driver's inputs are made for.
-    `quiescent_a` is the board's own current, radio off, `output_a` its largest output current, `charge_ma` the fixed
-    current of its battery charger (a board without it and without `battery` pads has none: the battery is then charged
-    outside the robot), `micropython` the name of its image among MicroPython's downloads. `before` says what is done to
-    it before it is wired.
+    `forward2` and the like; `sda` and `scl` of a gyroscope, and of a controller's pins that may be its I2C lines, which
+    are pulled up at the start. `diode_at` names inputs that need a series diode, `button` the pin of a push button on
+    the board. `usb_mm` is the opening (width, height) that the plug of its USB socket needs, whose middle is
+    `usb_height_mm` above the board's underside, at an end of its length. `left` and `right` are the pins along its
+    sides, from that end on, as seen from above; others are underneath. `logic_v` is the level of a controller's pins,
+    or the one that a driver's inputs are made for. `quiescent_a` is the board's own current, radio off, `output_a` its
+    largest output current, `charge_ma` the fixed current of its battery charger (a board without it and without
+    `battery` pads has none: the battery is then charged outside the robot), `micropython` the name of its image among
+    MicroPython's downloads. `before` says what is done to it before it is wired.
     """
 
     description: Source
@@ -105,11 +105,12 @@ class Board(Article):
 
     @property
     def uses(self) -> tuple[str, ...]:
-        """What its pins make it: controller, driver, regulator, or several of them; empty where no pin is given."""
+        """What its pins make it: controller, driver, regulator, gyroscope, or several; empty where no pin is given."""
         can = {function for functions in self.pins.values() for function in functions}
         controls, drives = any(map(GPIO.fullmatch, can)), bool(can & {"forward", "reverse", "motor+", "motor-"})
         regulates = "out" in can and not controls and not drives
-        kinds = {"controller": controls, "driver": drives, "regulator": regulates}
+        kinds = {"controller": controls, "driver": drives, "regulator": regulates,
+                 "gyroscope": "sda" in can and not controls}  # fmt: skip
         return tuple(kind for kind, found in kinds.items() if found)
 
     def with_function(self, function: str) -> tuple[str, ...]:

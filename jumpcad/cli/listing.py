@@ -20,7 +20,7 @@ USED_AS = {
     "kits": "[bought] kit in a workshop",
     "motors": "[bought] motors",
     "batteries": "[bought] battery",
-    "boards": "[bought] controller, driver, regulator",
+    "boards": "[bought] controller, driver, regulator; [steering] gyroscope",
     "components": "[bought] sensor, switch, plug, capacitor, diode, wire",
     "bearings": "[bought] leg_bearing, roller",
     "springs": "[bought] spring",

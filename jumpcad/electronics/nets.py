@@ -23,12 +23,16 @@ PULL_UP_MORE = 1.1
 AT = {"upper resistor": "controller", "lower resistor": "controller", "pull-up resistor": "controller",
       "diode": "controller", "capacitor": "driver"}  # fmt: skip
 """Small parts, and the board at which they are soldered where a net has a terminal of it."""
-SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": "", "steer": "pwm", "steer_reverse": "pwm"}
+SIGNALS = {"battery": "adc", "motor": "pwm", "sleep": "", "ready": "", "steer": "pwm", "steer_reverse": "pwm",
+           "gyro_data": "sda", "gyro_clock": "scl"}  # fmt: skip
 """Signals of the controller in the order in which they get their pins, and what a pin must be able to do."""
 STEERING = {"steer": "forward2", "steer_reverse": "reverse2"}
 """Signals of the motor that steers, and inputs of the driver's second bridge."""
+GYROSCOPE = {"gyro_data": "sda", "gyro_clock": "scl"}
+"""Signals of the gyroscope, and its pins; its own board pulls them up."""
 AVOIDED = ("strapping", "boot_log")
-"""Functions that make a pin unsuitable: its level at start chooses how the chip boots, or the chip writes on it."""
+"""Functions that make a pin unsuitable: its level at start chooses how the chip boots, or the chip writes on it. Pins
+that may be a gyroscope's say so."""
 COLOURS = {"supply": "red", "logic": "orange", "ground": "black", "motor": "blue", "signal": "yellow"}
 
 
@@ -104,6 +108,7 @@ def wiring_of(chosen: Chosen, named: Mapping[Any, str], steers: bool = False) ->
     upper = divider_ohm(chosen)
     wanted = [s for s in SIGNALS if not (s == "battery" and upper is None)]
     wanted = [s for s in wanted if steers or s not in STEERING]
+    wanted = [s for s in wanted if chosen.gyroscope or s not in GYROSCOPE]
     wanted = [s for s in wanted if not (s == "sleep" and not chosen.driver.with_function("sleep"))]
     wanted = [s for s in wanted if not (s == "ready" and "sensor" not in chosen.components)]
     pins = _pins(chosen.controller, wanted, named)
@@ -131,7 +136,7 @@ def _pins(controller: Board, wanted: list[str], named: Mapping[Any, str]) -> dic
             name
             for name, functions in controller.pins.items()
             if any(map(GPIO.fullmatch, functions))
-            and not set(AVOIDED) & set(functions)
+            and (signal in GYROSCOPE or not set(AVOIDED) & set(functions))
             and name not in pins.values()
             and (not SIGNALS[signal] or SIGNALS[signal] in functions)
         ]
@@ -225,9 +230,14 @@ def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: in
     if "ready" in pins:
         ends = (Terminal("controller", pins["ready"]), Terminal("sensor", contact))
         yield Net("ready", "signal", ends if pull_up is None else (*ends, Terminal("pull-up resistor", "1")))
-    if "ready" in pins and pull_up is not None:
-        out = Terminal("controller", chosen.controller.with_function("out")[0])
-        yield Net("logic supply", "logic", (out, Terminal("pull-up resistor", "2")))
+    fed = [Terminal("pull-up resistor", "2")] if pull_up is not None else []
+    if (gyroscope := chosen.gyroscope) is not None:
+        fed.append(Terminal("gyroscope", supply_pin(gyroscope, (chosen.controller.logic_v or 0.0,) * 2)))
+        for signal in (one for one in GYROSCOPE if one in pins):
+            ends = tuple(Terminal("gyroscope", pin) for pin in gyroscope.with_function(GYROSCOPE[signal])[:1])
+            yield Net(signal.replace("_", " "), "signal", (Terminal("controller", pins[signal]), *ends))
+    for out in chosen.controller.with_function("out")[:1] if fed else ():
+        yield Net("logic supply", "logic", (Terminal("controller", out), *fed))
     if "battery" in pins:
         middle = (Terminal("upper resistor", "2"), Terminal("lower resistor", "1"))
         yield Net("battery measured", "signal", (Terminal("controller", pins["battery"]), *middle))

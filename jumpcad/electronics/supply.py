@@ -5,7 +5,7 @@ in series with a resistance r turns the unloaded shaft with (U - I_0·(R + r))/k
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component, Motor
 from jumpcad.workshop import BoughtParts, Workshop
@@ -23,12 +23,14 @@ class Chosen:
     driver: Board
     regulator: Board | None
     components: dict[str, Component]
+    gyroscope: Board | None = None
 
     @property
     def boards(self) -> dict[str, Board]:
         """Every board by its role."""
-        boards = {"controller": self.controller, "driver": self.driver}
-        return boards | ({"regulator": self.regulator} if self.regulator else {})
+        boards = {"controller": self.controller, "driver": self.driver, "regulator": self.regulator,
+                  "gyroscope": self.gyroscope}  # fmt: skip
+        return {role: board for role, board in boards.items() if board}
 
     @property
     def diode(self) -> Component | None:
@@ -47,7 +49,8 @@ class Chosen:
 
 def chosen_parts(workshop: Workshop) -> Chosen:
     """Return the electrical parts of a workshop."""
-    return chosen_of(workshop.catalogue, workshop.bought)
+    catalogue, name = workshop.catalogue, workshop.steering.gyroscope
+    return replace(chosen_of(catalogue, workshop.bought), gyroscope=catalogue.boards[name] if name else None)
 
 
 def chosen_of(catalogue: Catalogue, names: BoughtParts) -> Chosen:
@@ -66,7 +69,7 @@ class Supply:
     - `empty_v`, `nominal_v`, `full_v`: Of the battery without load.
     - `ohm`: Of battery and driver in series with the motor; the battery's is counted as if PWM did not lower its
       current.
-    - `boards_w`: Power of controller, driver and regulator at the nominal voltage, whether the motor turns or not. The
+    - `boards_w`: Power of all boards at the nominal voltage, whether the motor turns or not. The
       1 to 2 mA of the sensor's pull-up are not counted: they are within the scatter of the boards' currents.
     - `usable_j`: Energy of a full battery.
     """
@@ -122,7 +125,8 @@ def supply_of(chosen: Chosen) -> Supply:
     empty, full = battery.range_v
     behind_v = battery.voltage_v if regulator is None else (regulator.output_v or battery.voltage_v)
     share = 1.0 if regulator is None else regulator.efficiency
-    boards_w = chosen.controller.quiescent_a * behind_v / share + boards_beside_a(chosen) * battery.voltage_v
+    behind_a = chosen.controller.quiescent_a + (chosen.gyroscope.quiescent_a if chosen.gyroscope else 0.0)
+    boards_w = behind_a * behind_v / share + boards_beside_a(chosen) * battery.voltage_v
     return Supply(
         empty_v=empty, nominal_v=battery.voltage_v, full_v=full, ohm=battery.ohm + chosen.driver.resistance_ohm,
         boards_w=boards_w, usable_j=3.6 * battery.capacity_mah * battery.voltage_v,
@@ -168,6 +172,8 @@ def chain(chosen: Chosen, motor: Motor, supply: Supply, peak_a: float, torque_ma
     remedy = "choose a bought.kit, a bought.battery within this range, or a bought.regulator before the controller"
     yield _board_link("controller", chosen.controller, logic, remedy)
     yield _board_link("driver", chosen.driver, direct, "choose a bought.kit, another bought.driver or bought.battery")
+    if chosen.gyroscope is not None and (volts := chosen.controller.logic_v):
+        yield _board_link("gyroscope", chosen.gyroscope, (volts, volts), "another steering.gyroscope")
     duty = supply.duty(motor, torque_max_nm)
     mean = (duty * empty, duty * full)
     yield Link("motor", motor.name, "winding", mean, motor.range_v,

@@ -40,7 +40,7 @@ BOUGHT_COLOURS: dict[str, Colour] = {
     "torsion spring": (0.30, 0.33, 0.38), "gear motor": (0.85, 0.70, 0.30), "bearing": (0.72, 0.74, 0.77),
     "steel rod": (0.66, 0.68, 0.71), "screw": (0.22, 0.23, 0.25), "standoff": (0.96, 0.96, 0.93),
     "battery": (0.20, 0.42, 0.85), "controller": (0.13, 0.50, 0.28), "driver": (0.50, 0.20, 0.50),
-    "regulator": (0.13, 0.30, 0.50),
+    "regulator": (0.13, 0.30, 0.50), "gyroscope": (0.55, 0.30, 0.10),
 }  # fmt: skip
 """Colours by a word in a bought part's article or name; the first match counts."""
 STEEL: Colour = (0.62, 0.64, 0.67)

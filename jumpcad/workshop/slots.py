@@ -59,6 +59,7 @@ SLOTS = {
     "bought.leg": Slot("bars", "leg bar", "printed legs"),
     "cage.rod": Slot("cage_rods", "cage rod", "no cage"),
     "steering.motor": Slot("steering_motors", "motor", ""),
+    "steering.gyroscope": Slot("boards", "gyroscope"),
     "bought.axle": Slot("rods", "rod", ""),
     "ground.pad": Slot("pads", "pad"),
     "body.stop_pad": Slot("pads", "pad"),

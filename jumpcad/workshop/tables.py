@@ -123,8 +123,8 @@ class BoughtParts(ElectricalParts):
     `kit` is the kit that the electrical parts come from; a file that names one takes all of them over, and those that
     it names itself override the kit's. An empty name leaves a part out, such as a
     regulator; a robot without switch or plug is refused. `pins` are pins of the controller for `motor`,
-    `sleep`, `ready` (the sensor), `battery` (its voltage), `steer` and `steer_reverse` where the program's choice does
-    not suit.
+    `sleep`, `ready` (the sensor), `battery` (its voltage), `steer`, `steer_reverse`, `gyro_data` and `gyro_clock` where
+    the program's choice does not suit.
     `leg_bearing` may be "any", the lightest that carries its load, or empty, which means none. `spring` is empty where
     springs of the design's stiffness are made to order.
     `leg` is the bar that main leg and front link are made of between printed ends, empty where they are printed whole.
@@ -135,9 +135,9 @@ class BoughtParts(ElectricalParts):
     kit: OptionalName
     leg_bearing: OptionalName
     roller: Name
-    pins: dict[Literal["motor", "sleep", "ready", "battery", "steer", "steer_reverse"], Name] = Field(
-        default_factory=dict
-    )
+    pins: dict[
+        Literal["motor", "sleep", "ready", "battery", "steer", "steer_reverse", "gyro_data", "gyro_clock"], Name
+    ] = Field(default_factory=dict)
     spring: OptionalName
     leg: OptionalName
     axle_mm: Length
@@ -182,6 +182,7 @@ class SteeringTable(TomlTable):
 
     What is 0 is found: the wheel's radius with its ring, how far below the feet's plane it reaches in the loaded pose
     (`dip_mm`), and how far it is behind the leg's axle, along the ground. `base_mm` is the thickness of its mount.
+    `gyroscope` is the board that measures its turns, a carrier of the LSM6DSO; without one they go by time.
     """
 
     wheel: Literal["none", "o-ring"]
@@ -190,6 +191,7 @@ class SteeringTable(TomlTable):
     dip_mm: Annotated[float, Field(ge=0, le=10)]
     behind_mm: Annotated[float, Field(ge=0, le=120)]
     base_mm: Annotated[float, Field(ge=1, le=8)]
+    gyroscope: OptionalName = ""
 
 
 class Seats(TomlTable):

@@ -138,7 +138,8 @@ class Workshop(Record):
 
     def to_toml(self) -> str:
         """Return the workshop as a complete TOML document that reads back the same."""
-        data = self.model_dump(exclude_none=True)
+        unsaid = {} if self.steering.gyroscope else {"steering": {"gyroscope"}}
+        data = self.model_dump(exclude_none=True, exclude=unsaid)
         return to_toml({key: value for key, value in data.items() if value or key not in OWN_PARTS})
 
     def contradictions(self) -> Iterator[Contradiction]:
@@ -169,6 +170,9 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
         yield from _cage_contradictions(self.cage)
+        if self.steering.gyroscope and self.steering.wheel == "none":
+            reason = 'measures the turns of a wheel, and there is none: set wheel = "o-ring", or leave it out'
+            yield ("steering", "gyroscope"), self.steering.gyroscope, reason
         if not self.body.stop_pad:
             known = ", ".join(name for name, pad in self.catalogue.pads.items() if pad.thickness_mm >= STOP_PAD_MIN_MM)
             reason = f"the rest stop needs a pad of at least {STOP_PAD_MIN_MM:g} mm: name one of {known}"

@@ -12,8 +12,10 @@ from support import needs
 from support.built import built
 
 from jumpcad.bundle.firmware import firmware_files
+from jumpcad.files import templates_folder
 
 FILES = dict(firmware_files(built("kenan-2.0")))
+FILES["firmware/gyroscope.py"] = (templates_folder() / "firmware" / "gyroscope.py").read_text()
 
 
 @pytest.mark.parametrize("path", [path for path in FILES if path.endswith(".py")])

@@ -107,7 +107,8 @@ def _part(
 
 ROW_MM, BOX_MM, COLUMN_MM, MARGIN_MM = 7.0, 50.0, 68.0, 8.0
 COLUMNS = (("battery", "plug", "switch"), ("capacitor", "driver", "motor", "steering motor", "regulator", "diode"),
-           ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor"))  # fmt: skip
+           ("controller", "sensor", "upper resistor", "lower resistor", "pull-up resistor",
+            "gyroscope"))  # fmt: skip
 """Where the drawing has its parts, from the left."""
 UNWIRED = "#8a8f96"
 """Of nets without a wire: parts' own legs."""

@@ -26,7 +26,8 @@ from jumpcad.steps.step_views import label_of
 PARTS = ("order", "arrival", "wiring", "assembly", "trouble")
 """The guide's documents, in the order in which a builder needs them."""
 BILL, LAST_WIRED = "guides/bill.md.j2", "power"
-BY_ROLE = ("motor", "battery", "controller", "driver", "regulator", "switch", "sensor", "capacitor", "plug")
+BY_ROLE = ("motor", "battery", "controller", "driver", "regulator", "gyroscope", "switch", "sensor", "capacitor",
+           "plug")  # fmt: skip
 """What a step and its picture call by its part in the robot, not by its article."""
 
 

@@ -70,6 +70,7 @@ class Electronics:
     regulator: Board | None = None
     plug: Component | None = None
     capacitor: Component | None = None
+    gyroscope: Board | None = None
     wall_mm: float = WALL_MM
     play_mm: float = PLAY_MM
     battery_side: Side | None = None
@@ -93,8 +94,9 @@ class Electronics:
     @property
     def boards(self) -> dict[str, Board]:
         """The boards by their roles, in the order in which they lie on the upper tray, from the back."""
-        boards = {"controller": self.controller, "driver": self.driver}
-        return boards | ({"regulator": self.regulator} if self.regulator else {})
+        boards = {"controller": self.controller, "driver": self.driver, "regulator": self.regulator,
+                  "gyroscope": self.gyroscope}  # fmt: skip
+        return {role: board for role, board in boards.items() if board}
 
     @property
     def names(self) -> str:

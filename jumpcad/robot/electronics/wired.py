@@ -7,7 +7,7 @@ import numpy as np
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import Chosen, chosen_of
+from jumpcad.electronics.supply import Chosen, chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.purchased import BoughtPart, bought, box_outline, placed_box, placed_screw
 from jumpcad.robot.electronics.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM, SWITCH_SCREWS_MM
@@ -34,7 +34,6 @@ HEAT_SHRINK, HEAT_SHRINK_G, RESISTOR_G, WIRE_LENGTH_MM = "heat-shrink tube 2 mm,
 def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield battery, boards, plug and capacitor on their seats, what holds them, and the small parts in the wires."""
     electronics, inside = layout.electronics, layout.lateral.inside
-    catalogue, chosen = workshop.catalogue, workshop.bought
     x, z = layout.tray_mm
     items: dict[str, Battery | Board | Component] = {"battery": electronics.battery}
     items |= {**electronics.boards, **electronics.tied}
@@ -53,9 +52,9 @@ def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
             yield placed_box(f"tape_{role}", TAPE, *at, z + seat.bottom_mm - TAPE_MM, length, width, TAPE_MM, mass)
         else:
             yield placed_box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
-    yield from _switch(layout, catalogue)
-    parts = chosen_of(catalogue, chosen)
-    wiring = wiring_of(parts, chosen.pins, workshop.steering.wheel != "none")
+    yield from _switch(layout, workshop.catalogue)
+    parts = chosen_parts(workshop)
+    wiring = wiring_of(parts, workshop.bought.pins, workshop.steering.wheel != "none")
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
     found = list(_soldered(layout, parts, wiring, placed))
     small = [name for name, *_ in found if name.startswith(SMALL)]

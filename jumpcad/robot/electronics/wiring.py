@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from jumpcad.catalogue.boards import GPIO
-from jumpcad.electronics.nets import AVOIDED, SIGNALS, Wiring, divider_ohm, logic_range
+from jumpcad.electronics.nets import AVOIDED, GYROSCOPE, SIGNALS, Wiring, divider_ohm, logic_range
 from jumpcad.electronics.supply import Chosen, supply_pin
 from jumpcad.findings import Basis, Finding, Severity, at_least, at_most
 
@@ -100,6 +100,7 @@ def _enough_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     """Return whether every signal has a pin of its own at controller and driver."""
     have = [signal for signal in SIGNALS if signal in wiring.pins]
     needed = ("motor", *(["sleep"] if chosen.driver.with_function("sleep") else []), "ready")
+    needed += tuple(GYROSCOPE) if chosen.gyroscope else ()
     missing = [signal for signal in needed if signal not in wiring.pins]
     if "sensor" not in chosen.components:
         return _yes_or_no("wiring_pins", False, "error", "no sensor reports that the springs are loaded",
@@ -154,8 +155,8 @@ def _fit_pins(chosen: Chosen, wiring: Wiring) -> Finding:
     wrong = []
     for signal, pin in wiring.pins.items():
         functions = chosen.controller.pins.get(pin, ())
-        wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in AVOIDED if bad in functions]
-        needed = SIGNALS[signal]
+        needed, avoided = SIGNALS[signal], () if signal in GYROSCOPE else AVOIDED
+        wrong += [f"{pin} ({signal}) is a {bad.replace('_', ' ')} pin" for bad in avoided if bad in functions]
         if not any(map(GPIO.fullmatch, functions)):
             wrong.append(f"{pin} ({signal}) has no GPIO")
         elif needed and needed not in functions:
