@@ -7,6 +7,7 @@ from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.files import templates_folder
 from jumpcad.files.templates import fill, render
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.place import Steering
 
 FOLDER = "firmware"
 COPIED = ("main.py", "winder.py")
@@ -21,5 +22,7 @@ def firmware_files(robot: Robot) -> Iterator[tuple[str, str]]:
     for name in (*COPIED, "gyroscope.py")[: 2 + measured]:
         text = (templates_folder() / FOLDER / name).read_text(encoding="utf-8")
         yield f"{FOLDER}/{name}", text.replace(PLAIN, MEASURED) if measured else text
+    if robot.layout.of(Steering) is not None:
+        yield f"{FOLDER}/remote.html", fill(f"{FOLDER}/remote.html.j2", {"name": robot.name})
     yield f"{FOLDER}/robot.py", fill(f"{FOLDER}/robot.py.j2", values)
     yield f"{FOLDER}/README.md", render(f"{FOLDER}/README.md.j2", operation_values(robot))
