@@ -8,7 +8,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.slots import SLOTS
 
-OF_A_KIT = [key for key in SLOTS if key.startswith("bought.") and SLOTS[key].table in ("batteries", "boards", "components")]
+ELECTRICAL = ("batteries", "boards", "components")
+OF_A_KIT = [key for key in SLOTS if key.startswith("bought.") and SLOTS[key].table in ELECTRICAL]
 SMALL = [key for key in SLOTS if SLOTS[key].table == "components"]
 
 
