@@ -86,6 +86,8 @@ def main() -> None:
     asked = parser.parse_args()
     if bool(asked.port) == bool(asked.name):
         parser.error("give --port or --name")
+    if not all(command.strip() for command in asked.commands):
+        parser.error("a command is empty")
     link = Cable(asked.port) if asked.port else Radio(asked.name)
     for command in asked.commands:
         if not carry_out(link, command):

@@ -185,7 +185,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         switch = gymnasium.spaces.MultiDiscrete([3, 3]) if self.steers else gymnasium.spaces.Discrete(3)
         self.observation_space: Any = gymnasium.spaces.Box(low, high)
         self.action_space: Any = switch if control == "switch" else torque
-        self._obstacles = _obstacles(obstacles)
+        self._obstacles = obstacles_of(obstacles)
         self._arena = self._arena_of(0)
         self._step_at, self._target, self._flies, self._begun_s = (0.0, 0.0), np.zeros(0), False, math.nan
 
@@ -205,7 +205,7 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         if start not in get_args(Start):
             raise JumpcadError(f"start = {start!r}: must be one of {', '.join(map(repr, get_args(Start)))}")
         if options and "obstacles" in options:
-            self._obstacles, self._arenas = _obstacles(options["obstacles"]), {}
+            self._obstacles, self._arenas = obstacles_of(options["obstacles"]), {}
             self.__dict__.pop("_renderer", None)
         arena = self._arena = self._arena_of(int(rng.integers(len(self._robots))))
         arena.stand_on(scattered_floor(rng) if self._scattered else Floor())
@@ -216,6 +216,8 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
             arena.rest()
         else:
             arena.stand("wound" if start == "loaded" else "home")
+            if struck := arena.struck:
+                raise JumpcadError(f"obstacles[{min(struck) - 1}] stands where the robot does, at 0, 0: move its at_m")
         height = float(rng.uniform(*self._steps_mm)) / 1000.0
         at = arena.centre_of_mass_m[0] + float(rng.uniform(*STEP_AHEAD_M))
         self._step_at = (at, height) if height > 0.0 else (0.0, 0.0)
@@ -345,8 +347,10 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
                 "loaded": arena.loaded >= LOADED}  # fmt: skip
 
 
-def _obstacles(given: Sequence[Mapping[str, Any] | Obstacle]) -> tuple[Obstacle, ...]:
-    return tuple(one if isinstance(one, Obstacle) else Obstacle(**one) for one in given)
+@check_arguments
+def obstacles_of(obstacles: Sequence[Mapping[str, Any] | Obstacle]) -> tuple[Obstacle, ...]:
+    """Return bars, steps and walls as they are kept."""
+    return tuple(one if isinstance(one, Obstacle) else Obstacle(**one) for one in obstacles)
 
 
 if gymnasium is not None:

@@ -187,5 +187,8 @@ def test_nothing_is_rewarded_or_shown_before_an_episode_begins() -> None:
             ask()
     with pytest.raises(JumpcadError, match=r"takes a table as options, not 5"):
         env.reset(options=5)  # type: ignore[arg-type]
+    for obstacles, words in ((3, r"takes a list of .* as obstacles, not 3"), ([WALL | {"at_m": (0.0, 0.0)}], "stands")):
+        with pytest.raises(JumpcadError, match=words):
+            env.reset(options={"obstacles": obstacles})
     with pytest.raises(JumpcadError, match=r"made = -1: must be at least 0"):
         jumpcad.JumpEnv(built("kenan-2.0"), made=-1)

@@ -40,6 +40,8 @@ def complaints(
     first that has a wrong key is named for it.
     """
     items = error.errors(include_url=False)
+    wrong = {item["loc"][:depth] for item in items for depth in range(len(item["loc"]))}
+    items = [item for item in items if item["loc"] not in wrong]  # a list lacks what is wrong in it
     files = origins or [Origin(source, text, {})]
     lines = [_lines(one.text) for one in files]
     clauses = []

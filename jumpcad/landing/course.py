@@ -158,7 +158,8 @@ def go(
     CannotBuildError
         If the robot does not leave the floor.
     JumpcadError
-        If it has no steering, if the battery does not take it there, or if MuJoCo is not installed.
+        If it has no steering, if the battery does not take it there, if an obstacle stands where it does, or if MuJoCo
+        is not installed.
     """
     return Going(course_of(to), tuple(trips(robot, to, tries, seed, settings, heading_noise_deg, record)))
 
@@ -189,7 +190,11 @@ def trips(
         raise JumpcadError(f"{robot.name} does not turn: the floor stalls its wheel; choose a stronger steering.motor")
     arena = Arena(robot, settings, course.obstacles)
     arena.stand("home")
-    step_m = hop(arena, np.random.default_rng(seed), Recorder(arena, False, 0)).way_m
+    if struck := arena.struck:
+        raise JumpcadError(f"obstacle {min(struck) + 1} stands where the robot does, at 0, 0: move its at_m")
+    free = Arena(robot, settings) if course.obstacles else arena
+    free.stand("home")
+    step_m = hop(free, np.random.default_rng(seed), Recorder(free, False, 0)).way_m
     charge, least = jumps_per_charge(robot), math.ceil((course.way_m - course.within_m) / step_m)
     if least > charge:
         raise JumpcadError(

@@ -219,20 +219,21 @@ def jumps(
     return Series(hops, way, weight, train.electrical_j, charge, arena.stands, faces_deg, *moved)
 
 
-def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callable[[], None] = lambda: None) -> Hop:
+def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callable[[], None] | None = None) -> Hop:
     """Wind, rest, `turn`, jump and come to rest.
 
     Raises
     ------
     CannotBuildError
-        If its first jump does not leave the floor.
+        If its first jump does not leave the floor, of a robot that does not turn.
     """
     begun = float(arena.data.time)
     recorder.begin()
     arena.wind(arena.robot.layout.drive.train.winding_s, lambda: recorder("winding"))
     arena.step(REST_S, quiet=True)
     recorder("winding")
-    turn()
+    if turn is not None:
+        turn()
     stood, start, heading = arena.stands, arena.centre_of_mass_m, math.degrees(arena.heading_rad)
     highest = float(start[2])
 
@@ -244,7 +245,7 @@ def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callab
     arena.release()
     if arena.fall(look):
         disturb(arena, rng)
-    elif recorder.number == 1:
+    elif recorder.number == 1 and turn is None:
         raise CannotBuildError(GROUNDED)
     rested_s = arena.rest(look)
     arena.step(max(LANDING_S + REST_S - rested_s, QUIET_STEP_S), quiet=True)

@@ -17,6 +17,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.limits import steers
 
 pytest.importorskip("mujoco")
+FAR = {"kind": "bar", "at_m": (5.0, 5.0), "height_mm": 20.0}
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +79,20 @@ def test_who_is_refused(robot: Robot) -> None:
         jumpcad.go(robot, Course(points_m=((900.0, 0.0), (0.0, 0.0), (200.0, 0.0))), 1)
     with pytest.raises(JumpcadError, match="heading_noise_deg = -1: must be at least 0"):
         jumpcad.go(robot, heading_noise_deg=-1.0)
+    for at_m in ((0.0, 0.0), (-1.0, 0.2)):
+        step = Obstacle(kind="step", at_m=at_m, height_mm=100.0)
+        with pytest.raises(JumpcadError, match="obstacle 2 stands where the robot does"):
+            jumpcad.go(robot, Course(points_m=((1.0, 0.0),), obstacles=(Obstacle(**FAR), step)), 1)
+
+
+def test_the_jumps_of_a_way_are_counted_in_the_open(robot: Robot) -> None:
+    """A wall before its nose, which it turns away from, does not make its jumps shorter."""
+    said = []
+    for obstacles in ((), (Obstacle(kind="wall", at_m=(0.2, 0.0), height_mm=500.0),)):
+        with pytest.raises(JumpcadError, match="a full battery gives") as refused:
+            jumpcad.go(robot, Course(points_m=((-900.0, 0.0),), obstacles=obstacles), 1)
+        said.append(str(refused.value))
+    assert said[0] == said[1]
 
 
 @pytest.mark.parametrize(
@@ -88,6 +103,7 @@ def test_who_is_refused(robot: Robot) -> None:
         ("points_m = [[1, 2]]\nwithin = 1", "within: unknown key (did you mean within_m?)"),
         ('points_m = [[1, 2]]\n[[obstacles]]\nkind = "hole"\nat_m = [1, 1]\nheight_mm = 5', "'bar', 'step' or 'wall'"),
         ("points_m = [[1, 2]", "c.toml"),
+        ("points_m = [[1, 2], [nan, 0]]", "c.toml: points_m.1.0 = nan: must be a finite number\n"),
     ],
 )
 def test_a_wrong_course_is_one_line(text: str, words: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
