@@ -304,6 +304,8 @@ class Arena:
             if mesh >= 0:
                 first = model.mesh_vertadr[mesh]
                 reach = float((model.mesh_vert[first : first + model.mesh_vertnum[mesh]] @ up).min())
+            elif model.geom_type[geom] == self._mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+                reach = -float(np.linalg.norm(model.geom_size[geom] * up))
             else:
                 radius, half = model.geom_size[geom, :2]
                 reach = -radius - abs(up[2]) * half

@@ -87,7 +87,7 @@ SAG_MM = 25.0
 """Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
 FREE_MM = 3.0
 """Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
-SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.85, ("rear", "behind"): 0.03}
+SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.98, ("rear", "behind"): 0.03}
 """Of the falling energy, by the bar that takes it and the direction, at most; `simulate --landing` says what its own
 landings bring a robot. Above the worst of 200 of `best-jumper`, MuJoCo."""
 WITHIN_MM = 100.0
