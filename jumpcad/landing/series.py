@@ -220,13 +220,7 @@ def jumps(
 
 
 def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callable[[], None] = lambda: None) -> Hop:
-    """Wind, rest, `turn`, jump and come to rest.
-
-    Raises
-    ------
-    CannotBuildError
-        If its first jump does not leave the floor.
-    """
+    """Wind, rest, `turn`, jump and come to rest; `CannotBuildError` if its first jump does not leave the floor."""
     begun = float(arena.data.time)
     recorder.begin()
     arena.wind(arena.robot.layout.drive.train.winding_s, lambda: recorder("winding"))
