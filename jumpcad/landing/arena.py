@@ -59,16 +59,9 @@ class Floor:
 
 
 class Arena:
-    """One robot on one floor; methods go on from where the last one ended.
+    """One printed robot on one floor with obstacles; methods go on from where the last one ended.
 
-    Parameters
-    ----------
-    robot
-        A printed robot.
-    settings
-        Of which gravity and friction hold; None: the defaults.
-    obstacles
-        What stands on the floor.
+    Of the settings gravity and friction hold.
     """
 
     def __init__(self, robot: Robot, settings: Settings | None = None, obstacles: Sequence[Obstacle] = ()) -> None:
