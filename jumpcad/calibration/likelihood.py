@@ -185,8 +185,7 @@ def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
 def data_of(subject: Subject) -> list[Datum]:
     """Return the data from a robot's jumps and videos.
 
-    What was measured in the same way is one datum, in however many series or videos, since its error is that of one
-    model: lengths and speeds are geometric means.
+    What was measured in the same way is one datum, with the model's error: lengths and speeds are geometric means.
     """
     name, measured = subject.name, subject.measured
     found = [

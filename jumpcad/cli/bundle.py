@@ -6,21 +6,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli import subjects
 from jumpcad.cli.check import jump_in_words, notes
 from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
-from jumpcad.cli.subjects import (
-    DesignArgument,
-    MaterialOption,
-    PrinterOption,
-    RowOption,
-    WorkshopOption,
-    bundle_of,
-    design_file,
-    name_of,
-    note_template,
-    printed_robot,
-)
 from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
 
@@ -37,10 +26,10 @@ LABEL = 15
 
 
 def build(
-    design: DesignArgument,
-    workshop: WorkshopOption = None,
-    printer: PrinterOption = None,
-    material: MaterialOption = None,
+    design: subjects.DesignArgument,
+    workshop: subjects.WorkshopOption = None,
+    printer: subjects.PrinterOption = None,
+    material: subjects.MaterialOption = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Folder of the bundle.", show_default="exports/NAME")
     ] = None,
@@ -68,12 +57,12 @@ def build(
         require_writable(EXPORTS)
     else:
         require_place(output)
-    note_template(design)
+    subjects.note_template(design)
     with status(f"building {design} …"):
-        robot = printed_robot(design, workshop, printer, material)
+        robot = subjects.printed_robot(design, workshop, printer, material)
     folder = output or EXPORTS / robot.name
     if not force:
-        _require_same_design_file(robot, design_file(design), folder)
+        _require_same_design_file(robot, subjects.design_file(design), folder)
     with status(f"simulating {robot.name} …"):
         plain = replace(capsule_robot(robot.design), springs=(replace(robot.spring, one_sided=False),))
         printed, capsule = (headline(one) for one in (robot, plain))
@@ -93,8 +82,8 @@ def render(
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures")
     ] = None,
-    workshop: WorkshopOption = None,
-    row: RowOption = None,
+    workshop: subjects.WorkshopOption = None,
+    row: subjects.RowOption = None,
     to: ToOption = None,
     course: CourseOption = None,
     force: ForceFlag = False,
@@ -108,10 +97,10 @@ def render(
     from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
-    note_template(subject)
+    subjects.note_template(subject)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
-    bundle = bundle_of(subject, workshop) if output is None else None
-    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{name_of(subject)}-{PICTURES}"))
+    bundle = subjects.bundle_of(subject, workshop) if output is None else None
+    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{subjects.name_of(subject)}-{PICTURES}"))
     if bundle:
         require_unedited(bundle, [f"{PICTURES}/{name}" for name in names], force)
     else:
@@ -119,7 +108,7 @@ def render(
         for name in names:
             require_free(folder / name, force)
     with status(f"building {subject} …"):
-        robot = printed_robot(subject, workshop)
+        robot = subjects.printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = headline(robot, trajectory=True)
@@ -169,8 +158,7 @@ def verify(
 def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     """Raise `JumpcadError` if a bundle of the robot's name was made from another design file.
 
-    A design file that differs from the bundle's was edited since the build, or is another one. The dates decide, as in
-    `make`: an edited file is newer than the bundle.
+    The dates decide, as in `make`: a design file that was edited since the build is newer than the bundle.
     """
     from jumpcad.bundle.manifest import DESIGN, open_bundle
 

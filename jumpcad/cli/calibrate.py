@@ -72,7 +72,11 @@ def calibrate(
         document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
         write_atomically(output, settings_toml(posterior), force)
     if plots:
-        document["pictures"] = _pictures(posterior, plots, force)
+        from jumpcad.calibration.plots import measurements, parameters
+        from jumpcad.search.report.figures import save_figure
+
+        drawn = {draw.__name__: draw(posterior) for draw in (parameters, measurements)}
+        document["pictures"] = [str(save_figure(figure, plots, name, force)) for name, figure in drawn.items()]
     if as_json:
         print_json(document)
     else:
@@ -92,11 +96,3 @@ def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
         },
         "sampler": {"seed": seed, **{name: getattr(posterior, name) for name in SAMPLER}},
     }
-
-
-def _pictures(posterior: "CalibrationPosterior", folder: Path, force: bool) -> list[str]:
-    from jumpcad.calibration import plots
-    from jumpcad.search.report.figures import save_figure
-
-    drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
-    return [str(save_figure(figure, folder, name, force)) for name, figure in drawn.items()]

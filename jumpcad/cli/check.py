@@ -7,18 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad.cli import subjects
 from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
-from jumpcad.cli.subjects import (
-    MaterialOption,
-    OwnDesignArgument,
-    PrinterOption,
-    WorkshopOption,
-    name_of,
-    note_template,
-)
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.findings import SHOWN_AS, Finding, errors
 
 if TYPE_CHECKING:
-    from jumpcad.findings import Finding
     from jumpcad.robot.robot import Robot
     from jumpcad.strength.growth import Grown
 
@@ -58,7 +53,7 @@ def warn_of_no_jump(robot: "Robot") -> None:
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
 
-def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
+def notes(robot: "Robot", findings: Sequence[Finding]) -> Iterator[str]:
     """Yield what became of a robot by itself: sections that grew, and what bought springs do to its stiffness."""
     if asked := [f"strength.{part} = {more:g}" for part, more in robot.workshop.strength if more != 1.0]:
         yield f"{', '.join(asked)}: {_cost(robot)}"
@@ -88,10 +83,10 @@ def grown_in_words(grown: "Sequence[Grown]") -> str:
 
 
 def check(
-    design: OwnDesignArgument,
-    workshop: WorkshopOption = None,
-    printer: PrinterOption = None,
-    material: MaterialOption = None,
+    design: subjects.OwnDesignArgument,
+    workshop: subjects.WorkshopOption = None,
+    printer: subjects.PrinterOption = None,
+    material: subjects.MaterialOption = None,
     every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
     explain: Annotated[
         str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
@@ -112,21 +107,18 @@ def check(
     from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
     from jumpcad.checks import CHECKS, basis_of
     from jumpcad.design import load_design
-    from jumpcad.errors import CannotBuildError, JumpcadError
-    from jumpcad.files import did_you_mean
-    from jumpcad.findings import errors
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
     from jumpcad.simulation import headline
     from jumpcad.workshop import load_workshop, own_workshop
 
-    note_template(design)
+    subjects.note_template(design)
     if explain and basis_of(explain) is None:
         hint = did_you_mean(explain, [name for one in CHECKS for name in one.basis])
         raise JumpcadError(f"no check makes a finding {explain!r}{hint}: jumpcad check DESIGN --all lists them")
     asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
     remedies = Remedies(asked, shop)
     try:
-        robot = build(asked, shop, name_of(design))
+        robot = build(asked, shop, subjects.name_of(design))
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
@@ -158,17 +150,15 @@ def check(
         raise typer.Exit(1)
 
 
-def is_tight(finding: "Finding") -> bool:
+def is_tight(finding: Finding) -> bool:
     """Tell whether a limit that holds is nearly reached: used by `TIGHT` or more, or without a margin."""
     if finding.use is not None:
         return finding.use >= TIGHT
     return margin_in_words(finding) == "at the limit"
 
 
-def margin_in_words(finding: "Finding") -> str:
+def margin_in_words(finding: Finding) -> str:
     """Return a margin in its printed unit; below `SMALL` it is "at the limit" or "just beyond"."""
-    from jumpcad.findings import SHOWN_AS
-
     unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
     margin = factor * finding.margin
     if unit in COUNTED and margin == 0.0:
@@ -178,7 +168,7 @@ def margin_in_words(finding: "Finding") -> str:
     return f"{margin:+.3g} {unit}".rstrip()
 
 
-def _print_explained(name: str, findings: "list[Finding]") -> None:
+def _print_explained(name: str, findings: list[Finding]) -> None:
     """Print formula and source of a limit, and what was found in this robot."""
     from jumpcad.checks import SYMBOLS, basis_of
 
@@ -197,7 +187,7 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
         console().print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
-def _print_findings(findings: "list[Finding]", every: bool) -> None:
+def _print_findings(findings: list[Finding], every: bool) -> None:
     from rich.text import Text
 
     limits = [finding for finding in findings if not finding.is_note]

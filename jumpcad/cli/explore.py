@@ -10,7 +10,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, watching, with_options
-from jumpcad.dimensions import counted
+from jumpcad.dimensions import counted, unit_of_key
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
 
@@ -114,7 +114,6 @@ Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]
 
 
 def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
-    from jumpcad.dimensions import unit_of_key
     from jumpcad.search.explore import sweep
     from jumpcad.search.report import plots
 

@@ -29,13 +29,7 @@ CourseOption = Annotated[
 
 
 def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...] | Course | None":
-    """Return where to go, by either option; None without one.
-
-    Raises
-    ------
-    JumpcadError
-        If both are given, the point is none, or the file cannot be read.
-    """
+    """Return where to go, by either option; None without one."""
     from jumpcad.landing.course import FARTHEST_M, Course
 
     if course is not None:

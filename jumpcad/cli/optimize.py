@@ -12,11 +12,11 @@ from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, w
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
 from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls
+from jumpcad.findings import Finding, errors
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.findings import Finding
     from jumpcad.search.models import RobotModel
     from jumpcad.search.study.evaluator import Watch
     from jumpcad.search.study.request import Request
@@ -134,11 +134,10 @@ def _before(result: "Result", robot: "RobotModel", centre: "Design | None") -> d
         return dict(robot(centre).metrics)
 
 
-def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
+def _violated(result: "Result", robot: "RobotModel") -> list[Finding]:
     """Return the limits that a printed winner violates, of those that a search does not look at."""
     from jumpcad.building import build
     from jumpcad.checks import costly_findings
-    from jumpcad.findings import errors
     from jumpcad.search.models import PrintedModel
 
     if result.winner is None or not isinstance(robot, PrintedModel):

@@ -225,10 +225,7 @@ def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
 
 
 class Tally:
-    """Progress of a search: evaluations done, best score, rate and time left.
-
-    Trials that are read from the study file count as done, but not for the rate.
-    """
+    """Progress of a search: evaluations done, also read from the study, best score, rate of the others, time left."""
 
     def __init__(self, total: int) -> None:
         self._total, self._done, self._computed = total, 0, 0

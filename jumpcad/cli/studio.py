@@ -8,6 +8,7 @@ import typer
 
 from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file
 from jumpcad.errors import JumpcadError
+from jumpcad.process import collect_usually
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -33,7 +34,6 @@ def studio(
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.files.templates import template_names
-    from jumpcad.process import collect_usually
     from jumpcad.studio import Studio
 
     is_study = design.endswith(STUDY) and not os.path.isdir(design)

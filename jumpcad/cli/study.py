@@ -10,6 +10,7 @@ from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, require_plots
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
+from jumpcad.search.methods import METHODS, SEARCH_PHASES
 
 if TYPE_CHECKING:
     from jumpcad.search.study.store import StudyStore
@@ -58,8 +59,6 @@ def study(
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
-        from jumpcad.search.methods import METHODS
-
         (summary,) = summaries
         method = summary["identity"]["method"]
         done = _done(summary["evaluations"], summary["planned"])
@@ -70,7 +69,6 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.methods import SEARCH_PHASES
     from jumpcad.search.study.database import is_written
     from jumpcad.search.study.objective import described_objective
     from jumpcad.search.study.store import StudyStore

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from jumpcad.errors import JumpcadError
+from jumpcad.files import find_template, template_names
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
@@ -18,13 +19,7 @@ if TYPE_CHECKING:
 
 def completion(kind: str) -> Callable[[str], list[str]]:
     """Return the shell completion for the names of a kind of templates."""
-
-    def names(incomplete: str) -> list[str]:
-        from jumpcad.files import template_names
-
-        return [name for name in template_names(kind) if name.startswith(incomplete.lower())]
-
-    return names
+    return lambda incomplete: [name for name in template_names(kind) if name.startswith(incomplete.lower())]
 
 
 DesignArgument = Annotated[
@@ -112,8 +107,6 @@ def name_of(subject: str) -> str:
 
 def design_file(subject: str) -> Path:
     """Return the design file of a bundle, a template or a path."""
-    from jumpcad.files import find_template
-
     bundle = bundle_of(subject)
     return bundle.file("design.toml") if bundle else find_template("robots", subject)
 
@@ -138,6 +131,4 @@ def reject_workshop(workshop: str | None, reason: str) -> None:
 
 
 def _is_template(subject: str) -> bool:
-    from jumpcad.files import template_names
-
     return subject in template_names("robots")

@@ -79,7 +79,7 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
         ("kovac-2010", "bound", lambda robot, _: _bound(robot, epfl, members)),
         ("flea-2013", "efficiency", _efficiency),
         ("clover-2022", "efficiency", _efficiency),
-        *((key, "left out", _nothing) for key, robot in facts.robots.items() if robot.reason),
+        *((key, "left out", lambda *_: ()) for key, robot in facts.robots.items() if robot.reason),
     ]
     found: list[dict[str, Any]] = []
     for key, tier, table in tables:
@@ -207,10 +207,6 @@ def _efficiency(robot: RobotFacts, _: np.random.Generator) -> list[Row]:
     """Return the measured efficiency, beside which nothing is computed."""
     figure = robot.figures["efficiency"]
     return [Row("efficiency", figure.value, figure.confidence, figure.source)]
-
-
-def _nothing(*_: Any) -> list[Row]:
-    return []
 
 
 def _flights(
