@@ -2,21 +2,18 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+import jumpcad
+from jumpcad import simulation
 from jumpcad.cli import subjects
 from jumpcad.cli.check import jump_in_words, notes
 from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
 from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
-
-if TYPE_CHECKING:
-    from jumpcad.bundle.manifest import Bundle
-    from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import Jump
 
 EXPORTS = Path("exports")
 PICTURES = "pictures"
@@ -30,9 +27,7 @@ def build(
     workshop: subjects.WorkshopOption = None,
     printer: subjects.PrinterOption = None,
     material: subjects.MaterialOption = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder of the bundle.", show_default="exports/NAME")
-    ] = None,
+    output: Annotated[subjects.File, subjects.output("Folder of the bundle.", "exports/NAME")] = None,
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
     ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
@@ -50,7 +45,6 @@ def build(
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.variants import capsule_robot
-    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     if output is None:
@@ -65,7 +59,7 @@ def build(
         _require_same_design_file(robot, subjects.design_file(design), folder)
     with status(f"simulating {robot.name} …"):
         plain = replace(capsule_robot(robot.design), springs=(replace(robot.spring, one_sided=False),))
-        printed, capsule = (headline(one) for one in (robot, plain))
+        printed, capsule = (simulation.headline(one) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):
@@ -79,9 +73,7 @@ def build(
 
 def render(
     subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures")
-    ] = None,
+    output: Annotated[subjects.File, subjects.output("Folder.", "BUNDLE/pictures, or NAME-pictures")] = None,
     workshop: subjects.WorkshopOption = None,
     row: subjects.RowOption = None,
     to: ToOption = None,
@@ -94,7 +86,6 @@ def render(
     from jumpcad.bundle.renders import RENDERS, jump_gif, motion_gif, renders
     from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
-    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     subjects.note_template(subject)
@@ -111,7 +102,7 @@ def render(
         robot = subjects.printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
-    jump = headline(robot, trajectory=True)
+    jump = simulation.headline(robot, trajectory=True)
     if jump.trajectory is not None and (row or to or course):
         with status(f"drawing the jumps of {robot.name} …"):
             files[GIF] = motion_gif(robot, viewer_data(robot, jump, recorded(robot, row, to, course)))
@@ -155,7 +146,7 @@ def verify(
         raise typer.Exit(1)
 
 
-def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
+def _require_same_design_file(robot: "jumpcad.Robot", file: Path, folder: Path) -> None:
     """Raise `JumpcadError` if a bundle of the robot's name was made from another design file.
 
     The dates decide, as in `make`: a design file that was edited since the build is newer than the bundle.
@@ -177,7 +168,9 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     )
 
 
-def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
+def _facts(
+    robot: "jumpcad.Robot", bundle: "jumpcad.Bundle", printed: "simulation.Jump", capsule: "simulation.Jump"
+) -> dict[str, Any]:
     """Return the figures that `build` prints."""
     from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
     from jumpcad.robot.plates.thing import engraving_findings

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad import simulation
 from jumpcad.cli import subjects
 from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
 from jumpcad.errors import CannotBuildError, JumpcadError
@@ -25,9 +26,8 @@ COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
-NextFlag = Annotated[
-    bool, typer.Option("--next", help="Say what each limit costs in range, and a gram of the body: seconds of work.")
-]
+NEXT = "Say what each limit costs in range, and a gram of the body: seconds of work."
+NextFlag = Annotated[bool, subjects.option(NEXT, None, "--next")]
 
 
 def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
@@ -46,9 +46,7 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
 
 def warn_of_no_jump(robot: "Robot") -> None:
     """Print on standard error why a robot does not jump, if so."""
-    from jumpcad.simulation import headline
-
-    jump = headline(robot)
+    jump = simulation.headline(robot)
     if jump.verdict != "jump":
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
@@ -65,12 +63,11 @@ def notes(robot: "Robot", findings: Sequence[Finding]) -> Iterator[str]:
 def _cost(robot: "Robot") -> str:
     """Return what the strength that was asked for costs in mass and distance."""
     from jumpcad.building import build
-    from jumpcad.simulation import headline
     from jumpcad.workshop import varied
 
     plain = {f"strength.{part}": 1.0 for part, _ in robot.workshop.strength}
     before = build(robot.design, varied(robot.workshop, plain), robot.name)
-    far = [1000.0 * (headline(one).touchdown_distance_m or 0.0) for one in (robot, before)]
+    far = [1000.0 * (simulation.headline(one).touchdown_distance_m or 0.0) for one in (robot, before)]
     return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of touchdown"
 
 
@@ -89,7 +86,7 @@ def check(
     material: subjects.MaterialOption = None,
     every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
     explain: Annotated[
-        str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
+        str, subjects.option("Show one limit alone, with formula and source.", "NAME", "--explain")
     ] = "",
     what_next: NextFlag = False,
     as_json: JsonFlag = False,
@@ -108,7 +105,6 @@ def check(
     from jumpcad.checks import CHECKS, basis_of
     from jumpcad.design import load_design
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
-    from jumpcad.simulation import headline
     from jumpcad.workshop import load_workshop, own_workshop
 
     subjects.note_template(design)
@@ -122,7 +118,7 @@ def check(
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
-    jump = headline(robot)
+    jump = simulation.headline(robot)
     findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
     steps, usual_mm = next_steps(robot, findings) if what_next else ([], 0.0)
@@ -152,9 +148,7 @@ def check(
 
 def is_tight(finding: Finding) -> bool:
     """Tell whether a limit that holds is nearly reached: used by `TIGHT` or more, or without a margin."""
-    if finding.use is not None:
-        return finding.use >= TIGHT
-    return margin_in_words(finding) == "at the limit"
+    return margin_in_words(finding) == "at the limit" if finding.use is None else finding.use >= TIGHT
 
 
 def margin_in_words(finding: Finding) -> str:

@@ -2,19 +2,16 @@
 
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import jumpcad
 from jumpcad.cli.output import shell_quoted
 from jumpcad.files import find_template, read_toml, template_names, to_toml
-
-if TYPE_CHECKING:
-    from jumpcad.design import Design
-    from jumpcad.workshop import Workshop
 
 LINE = re.compile(r"(?P<key>\w+)(?P<equals> = )(?P<value>.*?)(?P<comment>\s+#.*)?")
 
 
-def commented_design(design: "Design", origin: str, file: str) -> str:
+def commented_design(design: "jumpcad.Design", origin: str, file: str) -> str:
     """Return the TOML document of a design with unit, searched range and effect of every number."""
     from jumpcad.design import PARAMETERS, PRINTED_BOUNDS
     from jumpcad.files.templates import fill
@@ -24,7 +21,7 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
     return fill("texts/design.toml.j2", values)
 
 
-def commented_workshop(workshop: "Workshop", origin: str) -> str:
+def commented_workshop(workshop: "jumpcad.Workshop", origin: str) -> str:
     """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
     shipped, text = read_toml(find_template("workshops", "default"))
     data, printer = workshop.model_dump(mode="json", exclude_none=True), printer_name(workshop)
@@ -73,7 +70,7 @@ def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def printer_name(workshop: "Workshop") -> str:
+def printer_name(workshop: "jumpcad.Workshop") -> str:
     """Return the name of a workshop's printer; empty if it is not shipped."""
     from jumpcad.workshop import Printer
 

@@ -14,20 +14,14 @@ from jumpcad.files import to_toml
 
 TEMPLATE = "kenan-2.0"
 
+FROM, NEW = (
+    "Design to copy: a template's name or a file.",
+    "Write a workshop file instead, copied from this one: a template's name or a file.",
+)
 FromOption = Annotated[
-    str | None,
-    typer.Option(
-        "--from", help="Design to copy: a template's name or a file.", show_default=TEMPLATE,
-        autocompletion=subjects.completion("robots"),
-    ),
-]  # fmt: skip
-NewWorkshopOption = Annotated[
-    str | None,
-    typer.Option(
-        help="Write a workshop file instead, copied from this one: a template's name or a file.",
-        autocompletion=subjects.completion("workshops"),
-    ),
+    subjects.Text, subjects.option(FROM, None, "--from", shown=TEMPLATE, autocompletion=subjects.completion("robots"))
 ]
+NewWorkshopOption = Annotated[subjects.Text, subjects.option(NEW, autocompletion=subjects.completion("workshops"))]
 
 
 def new(

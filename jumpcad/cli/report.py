@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 PAGE = "report.html"
 STUDY = ".db"
+SUBJECT = "A bundle, a template, a design file, or a study file."
+ROBOTS = "Templates, design files, bundles, trials of a study as F.db#28."
 
 
 def report(
-    subject: Annotated[
-        str, typer.Argument(help="A bundle, a template, a design file, or a study file.", metavar="BUNDLE|DESIGN|F.db")
-    ],
+    subject: Annotated[str, subjects.argument(SUBJECT, "BUNDLE|DESIGN|F.db")],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="File of the page [BUNDLE/report.html, or NAME-report.html].")
+        subjects.File, subjects.output("File of the page [BUNDLE/report.html, or NAME-report.html].")
     ] = None,
     workshop: subjects.WorkshopOption = None,
     row: subjects.RowOption = None,
@@ -74,7 +74,6 @@ def _robot_page(
     subject: str, output: Path | None, workshop: str | None, series: "Callable[[Robot], Series | Trip | None]",
     what_next: bool, force: bool,
 ) -> Path:  # fmt: skip
-    """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.bundle.limits import limits_of
@@ -103,10 +102,7 @@ def _robot_page(
 
 
 def compare(
-    robots: Annotated[
-        list[str],
-        typer.Argument(help="Templates, design files, bundles, trials of a study as F.db#28.", metavar="A B…"),
-    ],
+    robots: Annotated[list[str], subjects.argument(ROBOTS, "A B…")],
     workshop: subjects.WorkshopOption = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="File of the page.")] = Path("comparison.html"),
     force: ForceFlag = False,

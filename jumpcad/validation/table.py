@@ -104,9 +104,7 @@ def _row(robot: RobotFacts, name: str, values: npt.ArrayLike, how: str, of: tupl
          kind: str = "") -> Row:  # fmt: skip
     """Return the row of a figure, computed (n,) from the figures `of` the robot."""
     row = _compared(name, robot.figures[name], values, TOLERANCE[kind or name], how)
-    if not robot.sure(name, *of):
-        return replace(row, verdict="not judged")
-    return row
+    return row if robot.sure(name, *of) else replace(row, verdict="not judged")
 
 
 def _compared(name: str, figure: Figure, values: npt.ArrayLike, tolerance: float | None, how: str) -> Row:

@@ -89,7 +89,6 @@ class Workshop(Record):
 
     @property
     def stop_pad(self) -> parts.Pad:
-        """The pad of the rest stop."""
         return self.catalogue.pads[self.body.stop_pad]
 
     def __repr__(self) -> str:
@@ -101,7 +100,6 @@ class Workshop(Record):
         return str(getattr(self.roles, role))
 
     def material(self, role: Role) -> tables.Material:
-        """Return the material that a kind of part is printed in."""
         return self.materials[self.material_name(role)]
 
     def to_toml(self) -> str:
@@ -166,7 +164,6 @@ class Workshop(Record):
 
 
 def _own_contradictions(kind: str, own: Mapping[str, parts.Article]) -> Iterator[Contradiction]:
-    """Yield what is wrong with the user's own parts of a kind."""
     shipped: Mapping[str, parts.Article] = getattr(parts.load_catalogue(), kind, {})
     for key, part in own.items():
         if key in shipped:

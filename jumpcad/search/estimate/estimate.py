@@ -116,8 +116,7 @@ def _solver(rows: Array, weights: Array, d: int) -> Array:
     products = d * (d + 1) // 2
     more = rows.shape[1] - 1 - d - products
     ridge = [1e-9, *[RIDGE] * d, *[second] * products, *[RIDGE] * more]
-    found: Array = np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T)
-    return found
+    return np.asarray(np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T))
 
 
 def features(units: Array, scale: Array | float = 1.0) -> Array:
@@ -214,7 +213,6 @@ class Estimator:
             return None
 
     def _jump(self, design: Design, figures: Mapping[str, float]) -> Estimate:
-        """Return the estimate of a design's robot with these figures."""
         assert self._like is not None
         assert self._figures is not None
         if errors(geometry_findings(design)):

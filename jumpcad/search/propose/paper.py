@@ -46,9 +46,8 @@ def run_paper(evaluator: Evaluator, stage: Stage) -> None:
         run_genetic(evaluator, Stage(genetic, "ga", share, run=run))
         found = best_trial(evaluator.trials[before:])
         best += [found] if found else []
-    centre = (
-        max(best, key=lambda one: (one.score or 0.0) / energy_j(one.design)) if best else best_trial(evaluator.trials)
-    )
+    most = max(best, key=lambda one: (one.score or 0.0) / energy_j(one.design), default=None)
+    centre = most or best_trial(evaluator.trials)
     if centre is None:
         return
     for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):

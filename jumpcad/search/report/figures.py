@@ -75,7 +75,6 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
 
 
 def svg_text(figure: Figure) -> str:
-    """Return a figure as the text of an SVG file."""
     drawn = io.StringIO()
     with matplotlib.rc_context(STYLE):
         figure.savefig(drawn, format="svg", dpi=PNG_DPI, metadata={"Date": None})
@@ -115,7 +114,8 @@ def meaning_of(parameter: str) -> str:
 def reason_words(reason: str) -> str:
     """Return what a reason of a refusal means; empty if it is not known."""
     known = report_words("reasons")
-    return known[max(names, key=len)] if (names := [one for one in known if f"{reason}_".startswith(f"{one}_")]) else ""
+    names = [one for one in known if f"{reason}_".startswith(f"{one}_")]
+    return known[max(names, key=len)] if names else ""
 
 
 def figure_words(name: str, value: float) -> tuple[str, str]:

@@ -114,5 +114,4 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _told(error: BaseException) -> str:
-    """Return an error in one line."""
     return without_controls(f"{type(error).__name__}: {error}".removesuffix(": "))[:120]
