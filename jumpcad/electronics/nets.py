@@ -234,8 +234,8 @@ def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: in
     if (gyroscope := chosen.gyroscope) is not None:
         fed.append(Terminal("gyroscope", supply_pin(gyroscope, (chosen.controller.logic_v or 0.0,) * 2)))
         for signal in (one for one in GYROSCOPE if one in pins):
-            ends = tuple(Terminal("gyroscope", pin) for pin in gyroscope.with_function(GYROSCOPE[signal])[:1])
-            yield Net(signal.replace("_", " "), "signal", (Terminal("controller", pins[signal]), *ends))
+            there = (Terminal("gyroscope", pin) for pin in gyroscope.with_function(GYROSCOPE[signal])[:1])
+            yield Net(signal.replace("_", " "), "signal", (Terminal("controller", pins[signal]), *there))
     for out in chosen.controller.with_function("out")[:1] if fed else ():
         yield Net("logic supply", "logic", (Terminal("controller", out), *fed))
     if "battery" in pins:
