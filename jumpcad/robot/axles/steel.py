@@ -93,11 +93,6 @@ BASIS = {
 def steel_findings(robot: Robot) -> Iterator[Finding]:
     """Yield a finding for every way in which a bought part could break."""
     case = load_case(robot)
-    yield from (*_pins(case), *_retention(case), *_fatigue(case), *_bearings(case))
-
-
-def _pins(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
     names = {
         "leg_axle": "the leg's axle, springs loaded",
@@ -116,6 +111,7 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     ways = choose("a narrower", "bought.roller")
     yield stress_finding("roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, ways)
+    yield from (*_retention(case), *_fatigue(case), *_bearings(case))
 
 
 def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> Ways:
