@@ -35,8 +35,8 @@ def test_it_has_a_seat_four_wires_a_line_in_the_bill_and_a_step() -> None:
     assert ends == {
         "gyroscope VIN": "logic supply",
         "gyroscope GND": "ground",
-        "gyroscope SDA": "gyro data",
-        "gyroscope SCL": "gyro clock",
+        "gyroscope SDA": "gyro_data",
+        "gyroscope SCL": "gyro_clock",
     }
     assert "controller 3V3" in nets["logic supply"]
     used = [value for name, value in numbers(robot).items() if name.startswith("PIN_") and value is not None]
