@@ -222,8 +222,7 @@ def evaluate_made(
 ) -> EvaluationResult:  # fmt: skip
     """Return what `evaluate` returns, but with the jump of what `made` returns for robot and settings.
 
-    Robot, size and findings besides the jump's are those of the design. The robot of the design before is kept, so that
-    of several made of one design only the first takes time to build.
+    The rest is the design's, whose robot is kept: of several made of one design only the first takes time to build.
     """
     robot, findings = _designed(_BuildKey(design, workshop))
     jump = simulate(*made(robot, settings or Settings()), engine)

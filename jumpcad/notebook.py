@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from jumpcad.bundle.export import report_page
 from jumpcad.bundle.renders import rest_picture
@@ -73,8 +73,7 @@ def _notebook_display() -> Callable[[Any], Any] | None:
     shell = None if ipython is None else ipython.get_ipython()
     if getattr(shell, "kernel", None) is None:
         return None
-    display: Callable[[Any], Any] = importlib.import_module("IPython.display").display
-    return display
+    return cast(Callable[[Any], Any], importlib.import_module("IPython.display").display)
 
 
 def robot_html(robot: Mechanism) -> str:

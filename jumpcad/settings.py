@@ -76,7 +76,6 @@ class Settings(Record):
     draws: Draws = Draws()
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield draws that do not go together."""
         first, second = len(self.draws.spring_efficiency), len(self.draws.pin_friction)
         if first != second:
             yield ("draws", "pin_friction"), second, f"must be as many values as spring_efficiency has, {first}"

@@ -8,10 +8,15 @@ the processor: the same robot has the same bytes everywhere.
 
 import math
 from dataclasses import fields, is_dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from trimesh import Trimesh as Trimesh
+else:  # it takes 0.3 s, and masses need no mesh
+    Trimesh = Any
 
 Array = npt.NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from jumpcad.drive import Drive
 from jumpcad.drive.spring_choice import for_bought_springs, springs_on_leg
 from jumpcad.electronics.supply import Chosen, chosen_parts
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.flight import Blow, leg_blow
+from jumpcad.mechanism.flight import leg_blow
 from jumpcad.mechanism.model import five_bar
 from jumpcad.parts.part import Drawing, Part
 from jumpcad.robot.axles.thing import require_axle, require_retention
@@ -51,12 +51,21 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
     known = {part.name: part for part in before.parts} if before is not None else {}
-    parts = (*(_weighed(drawing, workshop, known.get(drawing.name)) for drawing in drawn), *kept)
+    weighed = (
+        replace(part, drawing=drawing)
+        if (part := known.get(drawing.name)) is not None and part.shape == drawing.shape
+        else weighed_part(drawing, workshop)
+        for drawing in drawn
+    )
+    parts = (*weighed, *kept)
     bodies = bodies_of(layout, parts, hardware)
     spring = springs_on_leg(design, workshop.stock_spring, layout.drive.spring.preload_rad)
     release = release_of(layout, workshop, parts, hardware, bodies, spring)
-    blow = leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
-    held = _met_by_stop(layout, blow)
+    stop, blow = layout.stop, leg_blow(bodies, layout.linkage, spring, layout.stop.angle_rad)
+    held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
+    values = (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
+    # rounded: last digits of an integration in time differ between processors
+    held = StopBlow(held.stop, *(float(f"{value:.5g}") for value in values))
     leg_range = (-design.compression_rad, held.stop.angle_rad + held.give_rad)
     joints, loop, _ = five_bar(layout.linkage, leg_range, spring.peak_torque_nm)
     return Robot(
@@ -71,13 +80,6 @@ def _same_but_for_lever(one: Layout, other: Layout) -> bool:
     """Tell whether layouts of one design are the same but for the height of the lever, which only the main leg has."""
     sections = replace(one.sections, lever_root_mm=other.sections.lever_root_mm)
     return same_by_value(replace(one, sections=sections, linkage=other.linkage), other)
-
-
-def _weighed(drawing: Drawing, workshop: Workshop, known: Part | None) -> Part:
-    """Return a drawing as a part, with the mass of the known one if that has its shape."""
-    if known is not None and known.drawing.shape == drawing.shape:
-        return replace(known, drawing=drawing)
-    return weighed_part(drawing, workshop)
 
 
 def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), name: str = "") -> Layout:
@@ -146,14 +148,6 @@ def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNee
     stop = float(f"{drive.train.cam_speed_rad_s * seats.sensor_stop_s:.5g}")
     reserve, layer = math.radians(seats.sensor_reserve_deg), workshop.process.layer_height_mm
     return SensorNeeds(part, part.travel, seats.sensor_axial_mm, seats.sensor_along_mm, stop, reserve, layer)
-
-
-def _met_by_stop(layout: Layout, blow: Blow) -> StopBlow:
-    """Return the leg's impact on its stop, rounded: last digits of an integration in time differ between processors."""
-    stop = layout.stop
-    held = stop_blow(blow, stop.angle_rad, stop.radius_mm, stop.pad_n_per_mm(layout.sections.thickness_mm))
-    values = (held.energy_j, held.torque_nm, held.force_n, held.give_rad, held.give_mm)
-    return StopBlow(held.stop, *(float(f"{value:.5g}") for value in values))
 
 
 def drawings(layout: Layout, workshop: Workshop) -> list[Drawing]:

@@ -26,15 +26,7 @@ from jumpcad.robot.sensor.place import track_mm
 from jumpcad.robot.sizing import RESERVE, TYPICAL_BODY, Sections, sections
 from jumpcad.robot.springs.place import PLATE_PINS_RAD
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD
-from jumpcad.strength.bearings import (
-    allowed_n,
-    bearing_load_n,
-    first_guess,
-    hub_bearings,
-    hub_width_mm,
-    loaded_forces_n,
-    roller_bearing,
-)
+from jumpcad.strength import bearings as strength_bearings
 from jumpcad.strength.growth import Growth
 from jumpcad.strength.stress import spring_share
 from jumpcad.workshop import Workshop
@@ -128,20 +120,19 @@ def solve_bearing_and_drive(
     Where none does, it is the strongest one, of which `jumpcad.checks` then warns. `plate_pins_rad` are the directions
     of the plates' pin that the springs may have, the preferred one first.
     """
-    linkage, roller = Linkage(design), roller_bearing(workshop)
-    bearings = hub_bearings(workshop)
+    linkage, roller = Linkage(design), strength_bearings.roller_bearing(workshop)
+    bearings = strength_bearings.hub_bearings(workshop)
     springs = springs_on_leg(design, workshop.stock_spring, math.radians(workshop.spring.preload_deg))
     falls_s = fall_s(linkage, springs, math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD)
     drive_within = cache(lambda limits: synthesise(design, limits, workshop.catalogue))
 
     def with_bearing(bearing: Bearing | None) -> Settled:
-        sizes = sections(linkage, workshop, hub_width_mm(bearing), growth)
+        sizes = sections(linkage, workshop, strength_bearings.hub_width_mm(bearing), growth)
         holes = HoleSizes.of(workshop, bearing)
         limits = drive_limits(workshop, roller, sizes, holes, plate_pins_rad)
-        drive = drive_within(replace(limits, fall_s=falls_s))
-        return Settled(linkage, sizes, holes, drive, roller)
+        return Settled(linkage, sizes, holes, drive_within(replace(limits, fall_s=falls_s)), roller)
 
-    number = first_guess(bearings, design, workshop)
+    number = strength_bearings.first_guess(bearings, design, workshop)
     while True:
         settled = with_bearing(bearings[number])
         enough = (index for index in range(number, len(bearings)) if _carries(bearings[index], settled, workshop))
@@ -165,9 +156,9 @@ def _carries(bearing: Bearing | None, settled: Settled, workshop: Workshop) -> b
     """Tell whether a hub bearing carries the forces of springs and cam; a plain hub is not checked."""
     if bearing is None:
         return True
-    forces = loaded_forces_n(settled.linkage.design, settled.drive)
-    load = bearing_load_n(forces, settled.sections.thickness_mm, settled.roller.width_mm, bearing)
-    return load <= allowed_n(bearing, workshop)
+    forces = strength_bearings.loaded_forces_n(settled.linkage.design, settled.drive)
+    load = strength_bearings.bearing_load_n(forces, settled.sections.thickness_mm, settled.roller.width_mm, bearing)
+    return load <= strength_bearings.allowed_n(bearing, workshop)
 
 
 def _require_hub_room(settled: Settled) -> None:
@@ -176,8 +167,8 @@ def _require_hub_room(settled: Settled) -> None:
     if holes.bearing is None:
         return
     wall = holes.hub_radius_mm - holes.hub_bore_mm / 2.0
-    to_screw = cam.lever_length_mm - holes.fits.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
-    to_spacer = math.hypot(*cam.cam_axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
+    to_screw = cam.geometry.lever_mm - holes.fits.m3_clearance_mm / 2.0 - holes.fits.wall_min_mm
+    to_spacer = math.hypot(*cam.geometry.axis_mm) - SPACER_RADIUS_MM - GAP_MM - wall
     largest = 2.0 * (min(to_screw, to_spacer) - holes.fits.press_mm)
     if holes.bearing.outer_mm > largest:
         raise CannotBuildError(

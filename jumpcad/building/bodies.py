@@ -140,7 +140,7 @@ def release_of(
     bodies: Mapping[str, Body], spring: Spring,
 ) -> Release:  # fmt: skip
     """Return the release of a robot with all its masses."""
-    by_name, length, sections = {part.name: part for part in parts}, layout.drive.cam.lever_length_mm, layout.sections
+    by_name, length, sections = {part.name: part for part in parts}, layout.drive.cam.geometry.lever_mm, layout.sections
     heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
     lever = Beam(sections.thickness_mm, heights, Shell.of(workshop.process))
     mass = 1e-6 * float(np.mean(lever.area_mm2)) * length * workshop.material("links").density_g_cm3

@@ -102,8 +102,7 @@ def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: 
     shown = {f"pictures/{picture}.png": png for picture, png in seen.items()}
     guide = write_guide(robot, list(seen))
     svgs = {path: str(text).encode() for path, text in files.items() if path.endswith(".svg")}
-    page = write_page(guide, robot.name, {**shown, **svgs})
-    files |= {**shown, **guide, "assembly.html": page}
+    files |= {**shown, **guide, "assembly.html": write_page(guide, robot.name, {**shown, **svgs})}
     shown_glb = glb if pictures and isinstance(glb, bytes) else None
     files["report.html"] = write_report(robot, seen, jump, shown_glb, tuple(files), sure)
     return files.items()

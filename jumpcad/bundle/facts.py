@@ -5,7 +5,6 @@ from typing import Any
 
 from jumpcad.collision.hulls import CAGE
 from jumpcad.drive.release import Release
-from jumpcad.drive.rolling import ReleaseParts
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Part
 from jumpcad.parts.purchased import BoughtPart
@@ -31,7 +30,7 @@ def spring_facts(robot: Robot) -> list[dict[str, Any]]:
     """
     spring = robot.layout.drive.spring
     plate, leg = (
-        [round(spring.pin_radius_mm * math.cos(angle), DIGITS), round(spring.pin_radius_mm * math.sin(angle), DIGITS)]
+        [round(spring.arms.pin_radius_mm * along, DIGITS) for along in (math.cos(angle), math.sin(angle))]
         for angle in (spring.plate_pin_rad, spring.leg_pin_rad)
     )
     return [
@@ -54,6 +53,7 @@ def release_facts(release: Release) -> dict[str, Any]:
     simulated jumps start with `energy_ratio_with_bending`. Torques are the largest of both corners and of the two
     motors in `assumed`, which are at the ends of the workshop's ranges; the second one is computed at low speed too.
     """
+    assumed = [{**vars(parts), "backlash_deg": math.degrees(parts.backlash_rad)} for parts in release.parts]
     return {
         "energy_ratio": round(release.energy_ratio, 6), "energy_ratio_rounded": round(release.rounded_ratio, 6),
         "energy_ratio_with_bending": round(release.off.energy_ratio, 6),
@@ -64,14 +64,8 @@ def release_facts(release: Release) -> dict[str, Any]:
         "free_play_deg": round(math.degrees(release.free_play_rad), 6),
         "roll_over_deg": round(math.degrees(release.roll_over_rad), 6),
         "window_deg": [round(math.degrees(angle), 6) for angle in release.window_rad],
-        "assumed": [_assumed(parts) for parts in release.parts],
+        "assumed": [{name: float(f"{values[name]:.9g}") for name in ASSUMED} for values in assumed],
     }  # fmt: skip
-
-
-def _assumed(parts: ReleaseParts) -> dict[str, float]:
-    """Return inertias, stiffnesses and clearances of a release, referred to the cam, with nine significant digits."""
-    values = {**vars(parts), "backlash_deg": math.degrees(parts.backlash_rad)}
-    return {name: float(f"{values[name]:.9g}") for name in ASSUMED}
 
 
 def stop_facts(robot: Robot) -> dict[str, Any]:

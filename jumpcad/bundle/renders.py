@@ -1,7 +1,7 @@
 """Pictures of a robot: at rest, loaded (`compressed` in file names), exploded, its steps, jump and whole motion."""
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -31,14 +31,12 @@ ROOM = 1.12
 """Size of the picture's frame over that of the view's."""
 
 
-def named_views(robot: Robot) -> list[tuple[str, StepView]]:
-    """Return the names and views of the pictures, in the order of the steps."""
+def named_views(robot: Robot) -> Iterator[tuple[str, StepView]]:
+    """Yield the names and views of the pictures, in the order of the steps."""
     views = step_views(robot)
-    named = []
     for number, step in enumerate(assembly_steps(robot), start=1):
         for index, view in enumerate(views.get(step.key, [])):
-            named.append((f"step-{number}" if index == 0 else f"step-{number}-{view.name}", view))
-    return named
+            yield f"step-{number}" if index == 0 else f"step-{number}-{view.name}", view
 
 
 def _picture(view: StepView, number: dict[str, int], scene: Renderer, size: tuple[int, int]) -> bytes:

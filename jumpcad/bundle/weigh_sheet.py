@@ -32,19 +32,14 @@ def weigh_sheet(robot: Robot) -> str:
         together = combined(masses)
         if together.mass_kg < LEAST_KG:
             continue
-        heavier = _figures(_with_gram(robot, body, together))
+        old, gram = robot.bodies[body], together.scaled_to(1e-3)  # spread as the pieces are
+        mass = combined([MassProperties(old.mass_kg, old.com_m, old.inertia_kg_m2), gram])
+        heavier = _figures(replace(robot, bodies={**robot.bodies, body: replace(old, **vars(mass))}))
         both = zip(heavier, plain, strict=True) if heavier and plain else ()
         effect = [f"{1000.0 * (more - now):.2f}" for more, now in both] or ["", ""]
         computed_g = f"{1000.0 * (together.mass_kg + others[name]):.2f}"
         rows.append((name.removesuffix(CHOOSE), body, len(masses), computed_g, "", *effect))
     return to_csv([COLUMNS, *rows])
-
-
-def _with_gram(robot: Robot, body: str, part: MassProperties) -> Robot:
-    """Return the robot with a gram more on a body, spread as a part of it is."""
-    old = robot.bodies[body]
-    mass = combined([MassProperties(old.mass_kg, old.com_m, old.inertia_kg_m2), part.scaled_to(1e-3)])
-    return replace(robot, bodies={**robot.bodies, body: replace(old, **vars(mass))})
 
 
 def _figures(robot: Robot) -> tuple[float, float] | None:

@@ -101,9 +101,7 @@ class Predicted:
         if datum.what == "height":
             return np.hypot(HEIGHT_M / math.sqrt(datum.count), single * value)
         spread = self.beyond_m[1] if datum.what == "distance" and reading != "centre-of-mass" else 0.0
-        if not datum.relative:
-            return np.full_like(value, single)
-        return np.hypot(single * value, spread)
+        return np.hypot(single * value, spread) if datum.relative else np.full_like(value, single)
 
 
 class CalibrationModel:
@@ -129,15 +127,12 @@ class CalibrationModel:
             key = f"rate:{subject.pair}"
             if key not in own or own[key].prior.source != "measured":
                 own[key] = CalibrationParameter(key, f"{subject.pair}: spring rate / design", subject.rate)
-            for name, label, prior in (
-                ("mass", "mass / model", subject.mass), ("floor", "friction of floor", subject.floor),
-            ):  # fmt: skip
-                own[f"{name}:{subject.name}"] = CalibrationParameter(
-                    f"{name}:{subject.name}", f"{subject.name}: {label}", prior
-                )
+            rows = [("mass", "mass / model", subject.mass), ("floor", "friction of floor", subject.floor)]
             if any("resting-place" in datum.readings for datum in self.data if datum.subject == subject.name):
-                key = f"travel:{subject.name}"
-                own[key] = CalibrationParameter(key, f"{subject.name}: travel after landing (mm)", subject.travel)
+                rows.append(("travel", "travel after landing (mm)", subject.travel))
+            for name, label, prior in rows:
+                key = f"{name}:{subject.name}"
+                own[key] = CalibrationParameter(key, f"{subject.name}: {label}", prior)
         return [*shared, *own.values()]
 
     def values(self, z: Array) -> dict[str, Array]:
@@ -185,8 +180,7 @@ def energy_per_mass(subject: Subject, values: dict[str, Array]) -> Array:
 def data_of(subject: Subject) -> list[Datum]:
     """Return the data from a robot's jumps and videos.
 
-    What was measured in the same way is one datum, in however many series or videos, since its error is that of one
-    model: lengths and speeds are geometric means.
+    What was measured in the same way is one datum, with the model's error: lengths and speeds are geometric means.
     """
     name, measured = subject.name, subject.measured
     found = [

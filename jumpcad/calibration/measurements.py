@@ -186,11 +186,7 @@ HEIGHTS_M = 0.045
 
 
 def contradictions(measured: Measurements, standing_m: float, weight_n: float) -> Iterator[str]:
-    """Yield what contradicts what, and what to do.
-
-    The standing robot's centre of mass is `standing_m` above the floor, springs loaded; its weight is on the scale or
-    by the model.
-    """
+    """Yield what contradicts what, and what to do; `standing_m` is the loaded robot's height of the centre of mass."""
     yield from _of_floor(measured, weight_n)
     yield from _of_distances(measured.jumps)
     yield from _of_heights(measured.jumps, standing_m)

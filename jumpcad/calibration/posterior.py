@@ -32,10 +32,9 @@ CORRELATED = 0.5
 
 @dataclass(frozen=True, repr=False, eq=False)
 class CalibrationPosterior(ByValue):
-    """Draws of a calibration's parameters.
+    """Draws of a calibration's parameters: `z` (draws, parameters) are standard normals under the prior.
 
-    `z` (draws, parameters) are standard normals under the prior; `autocorrelation` is the longest autocorrelation time
-    (steps), `steps` the length of the chains without burn-in, `walkers` their number.
+    `autocorrelation` is the longest time (steps), `steps` the length of the `walkers` chains without burn-in.
     """
 
     model: CalibrationModel
@@ -121,10 +120,7 @@ def sampled(
     model: CalibrationModel, seed: int = 0, steps: int = STEPS, most_steps: int = MOST_STEPS,
     walkers_each: int = WALKERS_EACH,
 ) -> CalibrationPosterior:  # fmt: skip
-    """Sample the posterior of a model; chains are doubled until they have converged or have `most_steps`.
-
-    `walkers_each` is the number of walkers per parameter; `steps` is the first length of the chains.
-    """
+    """Sample the posterior of a model; chains of `steps` are doubled until they have converged or have `most_steps`."""
     for subject in model.subjects:
         if not any(datum.subject == subject.name and datum.what != "battery" for datum in model.data):
             raise JumpcadError(

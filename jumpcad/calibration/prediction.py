@@ -96,10 +96,7 @@ LIMITS = {"spring_efficiency": (0.1, 1.5), "pin_friction": (0.0, 2.0)}
 
 @check_arguments
 def settings_toml(posterior: CalibrationPosterior) -> str:
-    """Return the settings file of a calibration.
-
-    Floor, masses and rate of the springs are not settings: they belong to workshop and design, see `elsewhere`.
-    """
+    """Return the settings file of a calibration; what belongs to workshop and design is said by `elsewhere`."""
     for one in posterior.residuals():
         if abs(off := one["off_by_deviations"]) > MOST_DEVIATIONS:
             unit = {"battery": "J", "speed": "m/s", "angle": "°"}.get(one["what"], "m")

@@ -1,7 +1,6 @@
 """Prior distributions of calibrated parameters, each as a function of a standard normal variable z.
 
-The sampler works on z; a parameter about which the data say nothing keeps z at mean 0 and standard deviation 1, in any
-unit.
+The sampler works on z; a parameter about which the data say nothing keeps its mean 0 and standard deviation 1.
 """
 
 import math

@@ -88,7 +88,6 @@ class Surface:
 
     @cached_property
     def error(self) -> float:
-        """Median of `errors`."""
         return float(np.median(self.errors))
 
     @cached_property

@@ -63,7 +63,6 @@ class LegBar(Article):
         return self._second_moment(self.height_mm, self.width_mm)
 
     def mass_g(self, length_mm: float) -> float:
-        """Return the mass of a length."""
         return self.density_g_cm3 * self.area_mm2 * length_mm / 1000.0
 
     def slabs_mm(self, more_mm: float = 0.0, ledge_mm: float = math.inf) -> list[tuple[float, float, float]]:
@@ -167,5 +166,4 @@ class CageRod(Article):
         return self.modulus_mpa * math.pi / 64.0 * self.diameter_mm**4
 
     def mass_g(self, length_mm: float) -> float:
-        """Return the mass of a length."""
         return self.density_g_cm3 * math.pi / 4.0 * self.diameter_mm**2 * length_mm / 1000.0

@@ -62,7 +62,6 @@ class ORing(Article):
 
     @property
     def description(self) -> str:
-        """What to order."""
         return f"O-ring {self.inside_mm:g} x {self.section_mm:g} mm, NBR 70 Shore A"
 
     @property
@@ -168,7 +167,6 @@ class Pad(Article):
     friction_max: Annotated[float, Field(ge=1e-3, le=2)]
 
     def contradictions(self) -> Iterator[Contradiction]:
-        """Yield a range of friction whose limits are exchanged."""
         if self.friction_max < self.friction_min:
             yield ("friction_max",), self.friction_max, f"must be at least friction_min = {self.friction_min:g}"
 

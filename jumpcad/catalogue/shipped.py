@@ -141,53 +141,46 @@ class Catalogue:
         return PartsByName("motor", {**self.small_motors, **self.motors})
 
     def rod_mass_g(self, diameter_mm: float, length_mm: float) -> float:
-        """Return the mass of a steel rod (g)."""
         return self.rod_density_g_cm3 * math.pi / 4.0 * diameter_mm**2 * length_mm / 1000.0
 
     def clip_for(self, shaft_mm: float) -> Clip:
-        """Return the clip for a shaft."""
         return _of_size("clip", {clip.shaft_mm: clip for clip in self.clips.values()}, shaft_mm)
 
     def clevis_pin_for(self, diameter_mm: float) -> ClevisPin:
-        """Return the clevis pin of a diameter."""
         return _of_size("clevis pin", {p.diameter_mm: p for p in self.clevis_pins.values()}, diameter_mm)
 
 
 @lru_cache(maxsize=1)
 def load_catalogue() -> Catalogue:
     """Return the shipped catalogue."""
-    folder = templates_folder() / "hardware"
-    files = ("motors", "bearings", "electronics", "kits", "fasteners", "springs", "pads", "axles", "bars", "cage_rods",
-             "small_motors", "o_rings")  # fmt: skip
-    motors, bearings, electronics, kits, fasteners, springs, pads, axles, bars, cage_rods, small, rings = (
-        read_toml(folder / f"{name}.toml")[0] for name in files
-    )
-    defaults = motors.pop("defaults")
+    electronics, fasteners, axles = (_tables(name) for name in ("electronics", "fasteners", "axles"))
     return Catalogue(
-        motors=_articles("motor", Motor, motors, defaults), small_motors=_articles("motor", Motor, small),
-        bearings=_articles("bearing", Bearing, bearings),
-        o_rings=_articles("O-ring", ORing, rings, rings.pop("defaults")),
-        batteries=_articles("battery", Battery, electronics["batteries"] | {"source": ""}),
-        boards=_articles("board", Board, electronics["boards"] | {"source": ""}),
-        components=_articles("component", Component, electronics["components"] | {"source": ""}),
-        kits=_by_name("kit", Kit, kits), springs=_articles("spring", StockSpring, springs),
-        pads=_articles("pad", Pad, pads), screws=_by_name("screw", Screw, fasteners["screws"]),
+        motors=_articles("motor", Motor, _tables("motors")),
+        small_motors=_articles("motor", Motor, _tables("small_motors")),
+        bearings=_articles("bearing", Bearing, _tables("bearings")),
+        o_rings=_articles("O-ring", ORing, _tables("o_rings")),
+        batteries=_articles("battery", Battery, electronics["batteries"]),
+        boards=_articles("board", Board, electronics["boards"]),
+        components=_articles("component", Component, electronics["components"]),
+        kits=_by_name("kit", Kit, _tables("kits")), springs=_articles("spring", StockSpring, _tables("springs")),
+        pads=_articles("pad", Pad, _tables("pads")), screws=_by_name("screw", Screw, fasteners["screws"]),
         nuts=_by_name("nut", Nut, fasteners["nuts"]), washers=_by_name("washer", Washer, fasteners["washers"]),
         standoffs=_by_name("standoff", Standoff, fasteners["standoffs"]), rods=_by_name("rod", Rod, axles["rods"]),
-        clips=_by_name("clip", Clip, axles["clips"]),
+        clips=_by_name("clip", Clip, axles["clips"]), bars=_articles("leg bar", LegBar, _tables("bars")),
         clevis_pins=_by_name("clevis pin", ClevisPin, axles["clevis_pins"]),
-        bars=_articles("leg bar", LegBar, bars, bars.pop("defaults")),
-        cage_rods=_articles("cage rod", CageRod, cage_rods), wire=Wire.from_toml(folder / "wire.toml"),
+        cage_rods=_articles("cage rod", CageRod, _tables("cage_rods")), wire=Wire(**_tables("wire")),
         rod_density_g_cm3=fasteners["rods"]["density_g_cm3"],
     )  # fmt: skip
 
 
-def _articles(
-    kind: str, model: type[AnyArticle], tables: dict[str, Any], defaults: Mapping[str, Any] | None = None
-) -> PartsByName[AnyArticle]:
-    """Return the articles of a file whose `source` is that of all of them."""
-    common = {"source": tables["source"]} | dict(defaults or {})
-    return _by_name(kind, model, {name: common | table for name, table in tables.items() if name != "source"})
+def _tables(name: str) -> dict[str, Any]:
+    return read_toml(templates_folder() / "hardware" / f"{name}.toml")[0]
+
+
+def _articles(kind: str, model: type[AnyArticle], tables: dict[str, Any]) -> PartsByName[AnyArticle]:
+    """Return the articles of a file whose `source` and `defaults` are those of all of them."""
+    common = {"source": tables.pop("source", "")} | tables.pop("defaults", {})
+    return _by_name(kind, model, {name: common | table for name, table in tables.items()})
 
 
 def _by_name(kind: str, model: type[Entry], tables: Mapping[str, Mapping[str, Any]]) -> PartsByName[Entry]:

@@ -7,14 +7,14 @@ along the path are sampled.
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from operator import attrgetter
 
 import numpy as np
 
 from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding, Remedy, choose, higher, lower
 from jumpcad.mechanism.poses import body_poses
-from jumpcad.parts.part import Part
 from jumpcad.robot.cage.limits import ELSEWHERE
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
@@ -63,7 +63,7 @@ def paths(ways: Iterable["Way"]) -> Iterator[tuple["Way", Blocked | None]]:
     for way in ways:
         if way.placed.move.way != "laid":
             found = [_in_the_way(way, mover, path) for mover, path in zip(way.movers, way.paths_mm, strict=True)]
-            yield way, max((one for one in found if one), key=_share, default=None)
+            yield way, max((one for one in found if one), key=attrgetter("share_mm2"), default=None)
 
 
 def tools(ways: Iterable["Way"]) -> Iterator[tuple[Tool, str, Blocked | None]]:
@@ -125,17 +125,16 @@ def assembly_ways(robot: Robot) -> list[Way]:
         for placed in step.placed:
             if placed.move.brings and not placed.move.trial:
                 built.pop(placed.move.brings)
-            movers = [pieces[thing.name] for thing in placed.things]
-            along = [travel(robot, thing, placed.move, poses[thing.body]) for thing in placed.things]
-            way = Way(step, placed, movers, [], [*there])
-            if placed.move.way == "bent":
-                paths = [_depth(mover, side) * side for mover, side in zip(movers, along, strict=True)]
-            elif placed.move.way == "snapped":
-                paths = [_snapped(way, mover, side) for mover, side in zip(movers, along, strict=True)]
-            else:
-                paths = [_reach(mover, there, side) * side for mover, side in zip(movers, along, strict=True)]
-            ways.append(replace(way, paths_mm=paths))
-            there += movers
+            way = Way(step, placed, [pieces[thing.name] for thing in placed.things], [], [*there])
+            for thing, mover in zip(placed.things, way.movers, strict=True):
+                side = travel(robot, thing, placed.move, poses[thing.body])
+                if placed.move.way == "snapped":
+                    way.paths_mm.append(_snapped(way, mover, side))
+                else:
+                    back = _depth(mover, side) if placed.move.way == "bent" else _reach(mover, there, side)
+                    way.paths_mm.append(back * side)
+            ways.append(way)
+            there += way.movers
         tried = {thing.name for placed in step.placed if placed.move.trial for thing in placed.things}
         there[:] = [piece for piece in there if piece.name not in tried]
     return ways
@@ -150,10 +149,9 @@ def _snapped(way: Way, mover: Piece, side: Array) -> Array:
 
 def _piece(thing: Visual, T_world_body: Array) -> Piece:
     """Return a part at its place in the world (mm)."""
-    source = thing.source.drawing if isinstance(thing.source, Part) else thing.source
     pose = chained(T_world_body, thing.T_body_mesh)
     pose[:3, 3] *= 1000.0
-    return Piece(thing.name, thing.body, source.shape, pose, source)
+    return Piece(thing.name, thing.body, thing.source.shape, pose)
 
 
 def _in_the_way(way: Way, mover: Piece, path_mm: Array) -> Blocked | None:
@@ -173,12 +171,13 @@ def _in_the_way(way: Way, mover: Piece, path_mm: Array) -> Blocked | None:
         share = _covered(mover, room, other, path_mm) / min(length, _depth(other, path_mm / length))
         if share > TOLERANCE_MM2:
             blocked.append(Blocked(way.step, mover.name, other.name, share))
-    return max(blocked, key=_share, default=None)
+    return max(blocked, key=attrgetter("share_mm2"), default=None)
 
 
 def _tool_blocked(way: Way, tool: Tool, fastener: Piece, path_mm: Array) -> Blocked | None:
     """Return the largest obstacle of a fastener's tool."""
-    shaft = _tool(tool, fastener, _side(way.placed, path_mm))
+    reach = way.placed.move.reach
+    shaft = _tool(tool, fastener, -SIDES[reach] if reach in SIDES else -path_mm / np.linalg.norm(path_mm))
     blocked = []
     for other in (*way.there, *way.movers):
         if other is fastener or _passes(way.placed, other.name):
@@ -186,11 +185,7 @@ def _tool_blocked(way: Way, tool: Tool, fastener: Piece, path_mm: Array) -> Bloc
         share = _shared(shaft, other) / min(tool.length_mm, _depth(other, shaft.T_body_part[:3, 2]))
         if share > TOLERANCE_MM2:
             blocked.append(Blocked(way.step, fastener.name, other.name, share))
-    return max(blocked, key=_share, default=None)
-
-
-def _share(blocked: Blocked) -> float:
-    return blocked.share_mm2
+    return max(blocked, key=attrgetter("share_mm2"), default=None)
 
 
 def _covered(mover: Piece, room: Piece | None, other: Piece, path_mm: Array) -> float:
@@ -214,8 +209,7 @@ def _covered(mover: Piece, room: Piece | None, other: Piece, path_mm: Array) -> 
 def _swept(thing: Piece, path_mm: Array) -> Piece | None:
     if not isinstance(thing.shape, Stack):
         return None
-    own = np.einsum("ji,j->i", thing.T_body_part[:3, :3], path_mm)
-    shape = swept(thing.shape, own)
+    shape = swept(thing.shape, np.einsum("ji,j->i", thing.T_body_part[:3, :3], path_mm))
     return None if shape is None else Piece(thing.name, thing.body, shape, thing.T_body_part)
 
 
@@ -242,13 +236,6 @@ def _reach(mover: Piece, there: list[Piece], along: Array) -> float:
     front = float((np.stack(_extent(mover)) * along).max(axis=0).sum())
     rear = min(float((np.stack(_extent(other)) * along).min(axis=0).sum()) for other in there)
     return max(front - rear, 0.0) + BEYOND_MM
-
-
-def _side(placed: MovedParts, path_mm: Array) -> Array:
-    """Return the direction (3,) from a fastener to its tool."""
-    if placed.move.reach in SIDES:
-        return -SIDES[placed.move.reach]
-    return -path_mm / np.linalg.norm(path_mm)
 
 
 def _tool(tool: Tool, fastener: Piece, side: Array) -> Piece:

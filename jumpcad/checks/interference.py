@@ -16,8 +16,7 @@ from manifold3d import Manifold
 from jumpcad.findings import Basis, Finding, higher, lower
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.parts.part import Drawing, Shape, solid_of
-from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.part import Shape, Shaped
 from jumpcad.robot.cage.limits import ELSEWHERE
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
@@ -62,19 +61,13 @@ BASIS = {
 
 
 @dataclass(frozen=True)
-class Piece:
-    """One printed or bought piece at its place in its body's frame; pieces of one `source` share its solid."""
+class Piece(Shaped):
+    """One printed or bought piece at its place in its body's frame."""
 
     name: str
     body: str
     shape: Shape
     T_body_part: Array
-    source: Drawing | BoughtPart | None = None
-
-    @cached_property
-    def solid(self) -> Manifold:
-        """The piece in its own frame (mm)."""
-        return self.source.solid if self.source else solid_of(self.shape)
 
     @cached_property
     def corners(self) -> Array:
@@ -99,11 +92,11 @@ class Position:
 def pieces_of(robot: Robot) -> list[Piece]:
     """Return every piece of a robot, each copy separately."""
     printed = [
-        Piece(part.name, placement.body, part.drawing.shape, placement.T_body_part, part.drawing)
+        Piece(part.name, placement.body, part.drawing.shape, placement.T_body_part)
         for part in robot.parts
         for placement in part.placements
     ]
-    return printed + [Piece(item.name, item.body, item.shape, item.T_body_part, item) for item in robot.hardware]
+    return printed + [Piece(item.name, item.body, item.shape, item.T_body_part) for item in robot.hardware]
 
 
 def positions(robot: Robot) -> list[Position]:
@@ -122,14 +115,14 @@ def positions(robot: Robot) -> list[Position]:
         Position(f"dropping, at {math.degrees(wind):.1f}°", -float(wind), cam.law.lift_rad, play)
         for wind in np.linspace(loaded, 0.0, DROP_POSITIONS)
     ]
-    at_rest = Position("at rest", 0.0, cam.free_rad)
+    at_rest = Position("at rest", 0.0, cam.geometry.free_rad)
     stop = robot.layout.stop
     past = [
-        Position(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.free_rad, share * play)
+        Position(f"{math.degrees(leg):.1f}° past rest", float(leg), cam.geometry.free_rad, share * play)
         for leg in np.linspace(0.0, stop.angle_rad + robot.stop_blow.give_rad, PAST_POSITIONS)[1:]
         for share in AHEAD_SHARES
     ]
-    at_stop = Position("at the stop", stop.angle_rad, cam.free_rad)
+    at_stop = Position("at the stop", stop.angle_rad, cam.geometry.free_rad)
     return [*winding, *drop, at_rest, *past, at_stop]
 
 

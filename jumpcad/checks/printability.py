@@ -8,7 +8,6 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 from manifold3d import CrossSection, JoinType
@@ -20,10 +19,8 @@ from jumpcad.robot.robot import Robot
 from jumpcad.solids.outline import Region, box_around, grown, hull, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import faults, write_stl
+from jumpcad.transforms import Trimesh
 from jumpcad.workshop import Fits, Process
-
-if TYPE_CHECKING:
-    import trimesh
 
 HALVINGS = 7
 """Steps in the search for a width: to 1 % of the range."""
@@ -73,20 +70,18 @@ Fails = Callable[[Region, float], bool]
 """Tells whether something in a region is narrower than a width (mm)."""
 
 
-def bed_findings(robot: Robot) -> list[Finding]:
-    """Return `bed_fit`: every part within the printer's bed, parallel to it or turned."""
+def bed_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `bed_fit`: every part within the printer's bed, parallel to it or turned."""
     bed = robot.workshop.printer.bed_mm
     fitted = ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts)
     margin, part = min(fitted, key=lambda item: item[0])
     size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
-    return [
-        limit(
-            "bed_fit", margin, "mm",
-            f"{part.name}, {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm, on a bed of "
-            f"{bed[0]:g} x {bed[1]:g} x {bed[2]:g} mm",
-            ("a larger printer", *lower("carrying_link_mm")),
-        )
-    ]  # fmt: skip
+    yield limit(
+        "bed_fit", margin, "mm",
+        f"{part.name}, {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm, on a bed of "
+        f"{bed[0]:g} x {bed[1]:g} x {bed[2]:g} mm",
+        ("a larger printer", *lower("carrying_link_mm")),
+    )  # fmt: skip
 
 
 def printability_findings(robot: Robot) -> list[Finding]:
@@ -111,8 +106,8 @@ def printability_findings(robot: Robot) -> list[Finding]:
     free, wider = OVERHANG_LINES * process.line_width_mm, higher("fits.bridge_mm", note="if possible")
     return [
         _narrowest("walls", "wall", flat, _thin_wall, wall_min, less["wall_min_mm"]),
-        _narrowest("holes", "hole", flat, _narrow_hole, hole_min, (*less["hole_min_mm"], "drill it")),
-        _narrowest("pins", "column", slender, _slender, fits.pin_min_mm, less["pin_min_mm"]),
+        _narrowest("holes", "hole", flat, partial(_narrow, -1.0), hole_min, (*less["hole_min_mm"], "drill it")),
+        _narrowest("pins", "column", slender, partial(_narrow, 1.0), fits.pin_min_mm, less["pin_min_mm"]),
         _largest("overhangs", "overhang", reaches, free, "turn the part over, or use support"),
         _largest("bridges", "bridge", spans, fits.bridge_mm, ("use support", *wider)),
         *_solid_findings(drawings),
@@ -169,18 +164,13 @@ def _thin_wall(region: Region, width_mm: float) -> bool:
     return any(piece.area() > 0.5 * width_mm**2 for piece in (region - opened).decompose())
 
 
-def _narrow_hole(region: Region, width_mm: float) -> bool:
-    """Tell whether one of a region's holes closes when its sides move in by half a width."""
-    return any(_vanishes(hole, width_mm) for hole in _contours(region, -1.0))
-
-
-def _slender(region: Region, width_mm: float) -> bool:
-    """Tell whether the outline of a region, holes filled, is narrower than a width."""
-    return any(_vanishes(outline, width_mm) for outline in _contours(region, 1.0))
-
-
 def _vanishes(region: Region, width_mm: float) -> bool:
     return bool(region.offset(ROUND_OFF_MM - width_mm / 2.0, JoinType.Miter).is_empty())
+
+
+def _narrow(sign: float, region: Region, width_mm: float) -> bool:
+    """Tell whether a region's outline, holes filled (sign +1), or one of its holes (-1) is narrower than a width."""
+    return any(_vanishes(contour, width_mm) for contour in _contours(region, sign))
 
 
 def _contours(region: Region, sign: float) -> Iterator[Region]:
@@ -247,7 +237,7 @@ def _least(holds: Callable[[float], bool], top_mm: float, longest_mm: float) -> 
     return high
 
 
-def _mesh_undersides(mesh: "trimesh.Trimesh", angle_rad: float) -> Iterator[tuple[bool, float]]:
+def _mesh_undersides(mesh: Trimesh, angle_rad: float) -> Iterator[tuple[bool, float]]:
     """Yield a mesh's undersides; level ones count as bridges across their narrow side."""
     import trimesh
 
@@ -258,8 +248,7 @@ def _mesh_undersides(mesh: "trimesh.Trimesh", angle_rad: float) -> Iterator[tupl
     for patch in trimesh.graph.connected_components(adjacency, nodes=faces):
         flat = mesh.triangles[patch][:, :, :2].reshape(-1, 2)
         _, sizes = trimesh.bounds.oriented_bounds_2D(flat)
-        level = bool((mesh.face_normals[patch, 2] < -0.99).all())
-        yield level, float(min(sizes))
+        yield bool((mesh.face_normals[patch, 2] < -0.99).all()), float(min(sizes))
 
 
 def _solid_findings(drawings: Sequence[Drawing]) -> list[Finding]:

@@ -22,8 +22,8 @@ BASIS = {
 }
 
 
-def foot_findings(robot: Robot) -> list[Finding]:
-    """Return `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
+def foot_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `foot_clearance`: the gap between the foot and what the body carries, springs loaded (exact)."""
     layout = robot.layout
     linkage = robot.linkage
     loaded = Position("springs loaded", -robot.design.compression_rad, layout.drive.cam.law.lift_rad)
@@ -40,14 +40,12 @@ def foot_findings(robot: Robot) -> list[Finding]:
     )
     gap, name = min(gaps, default=(SEARCH_MM, ""))
     found = f"{name} comes within {gap:.1f} mm" if gap < SEARCH_MM else f"nothing comes within {gap:g} mm"
-    return [
-        limit(
-            "foot_clearance", gap - FOOT_GAP_MM, "mm",
-            f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
-            lower("compression_ratio") + higher("ground_link_angle_deg"),
-            value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
-        )
-    ]  # fmt: skip
+    yield limit(
+        "foot_clearance", gap - FOOT_GAP_MM, "mm",
+        f"{found} of the foot with loaded springs; {FOOT_GAP_MM:g} mm are needed",
+        lower("compression_ratio") + higher("ground_link_angle_deg"),
+        value=gap if gap < SEARCH_MM else None, allowed=FOOT_GAP_MM,
+    )  # fmt: skip
 
 
 def _near(a: Array, b: Array) -> bool:

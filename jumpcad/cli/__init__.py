@@ -18,8 +18,7 @@ SIGNALLED = 128
 def program() -> NoReturn:
     """Run the command line as a process, which ends as soon as threads and functions for its end are done.
 
-    To take hundreds of modules apart costs a fifth of the time of a short command, and libraries that count leaks then
-    print what a lost worker left behind.
+    To take modules apart costs a fifth of a short command's time, and libraries that count leaks would print them.
     """
     codes: list[int] = []
 

@@ -2,32 +2,18 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+import jumpcad
+from jumpcad import simulation
+from jumpcad.cli import subjects
 from jumpcad.cli.check import jump_in_words, notes
 from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
-from jumpcad.cli.subjects import (
-    DesignArgument,
-    MaterialOption,
-    PrinterOption,
-    RowOption,
-    WorkshopOption,
-    bundle_of,
-    design_file,
-    name_of,
-    note_template,
-    printed_robot,
-)
 from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
-
-if TYPE_CHECKING:
-    from jumpcad.bundle.manifest import Bundle
-    from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import Jump
 
 EXPORTS = Path("exports")
 PICTURES = "pictures"
@@ -37,13 +23,11 @@ LABEL = 15
 
 
 def build(
-    design: DesignArgument,
-    workshop: WorkshopOption = None,
-    printer: PrinterOption = None,
-    material: MaterialOption = None,
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder of the bundle.", show_default="exports/NAME")
-    ] = None,
+    design: subjects.DesignArgument,
+    workshop: subjects.WorkshopOption = None,
+    printer: subjects.PrinterOption = None,
+    material: subjects.MaterialOption = None,
+    output: Annotated[subjects.File, subjects.output("Folder of the bundle.", "exports/NAME")] = None,
     pictures: Annotated[bool, typer.Option(help="Draw the robot.")] = True,
     step: Annotated[bool, typer.Option("--step", help="Write STEP files of the parts too.")] = False,
     ros2: Annotated[bool, typer.Option("--ros2", help="Write a ROS 2 description package too.")] = False,
@@ -61,22 +45,21 @@ def build(
     from jumpcad.bundle.export import export
     from jumpcad.files.outputs import require_apart, require_writable
     from jumpcad.mechanism.variants import capsule_robot
-    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     if output is None:
         require_writable(EXPORTS)
     else:
         require_place(output)
-    note_template(design)
+    subjects.note_template(design)
     with status(f"building {design} …"):
-        robot = printed_robot(design, workshop, printer, material)
+        robot = subjects.printed_robot(design, workshop, printer, material)
     folder = output or EXPORTS / robot.name
     if not force:
-        _require_same_design_file(robot, design_file(design), folder)
+        _require_same_design_file(robot, subjects.design_file(design), folder)
     with status(f"simulating {robot.name} …"):
         plain = replace(capsule_robot(robot.design), springs=(replace(robot.spring, one_sided=False),))
-        printed, capsule = (headline(one) for one in (robot, plain))
+        printed, capsule = (simulation.headline(one) for one in (robot, plain))
     if printed.verdict != "jump" and not anyway:
         raise CannotBuildError(f"{robot.name} {jump_in_words(printed.to_dict())}; --anyway writes its files")
     with status(f"writing {robot.name} …"):
@@ -90,11 +73,9 @@ def build(
 
 def render(
     subject: Annotated[str, typer.Argument(help="A bundle, a template or a design file.", metavar="BUNDLE|DESIGN")],
-    output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder.", show_default="BUNDLE/pictures, or NAME-pictures")
-    ] = None,
-    workshop: WorkshopOption = None,
-    row: RowOption = None,
+    output: Annotated[subjects.File, subjects.output("Folder.", "BUNDLE/pictures, or NAME-pictures")] = None,
+    workshop: subjects.WorkshopOption = None,
+    row: subjects.RowOption = None,
     to: ToOption = None,
     course: CourseOption = None,
     force: ForceFlag = False,
@@ -105,13 +86,12 @@ def render(
     from jumpcad.bundle.renders import RENDERS, jump_gif, motion_gif, renders
     from jumpcad.bundle.viewer import viewer_data
     from jumpcad.files.outputs import require_apart, require_free, require_writable, write_files
-    from jumpcad.simulation import headline
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
-    note_template(subject)
+    subjects.note_template(subject)
     names = [*(f"{name}.png" for name in RENDERS), GIF]
-    bundle = bundle_of(subject, workshop) if output is None else None
-    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{name_of(subject)}-{PICTURES}"))
+    bundle = subjects.bundle_of(subject, workshop) if output is None else None
+    folder = output or (Path(subject, PICTURES) if bundle else Path(f"{subjects.name_of(subject)}-{PICTURES}"))
     if bundle:
         require_unedited(bundle, [f"{PICTURES}/{name}" for name in names], force)
     else:
@@ -119,10 +99,10 @@ def render(
         for name in names:
             require_free(folder / name, force)
     with status(f"building {subject} …"):
-        robot = printed_robot(subject, workshop)
+        robot = subjects.printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
-    jump = headline(robot, trajectory=True)
+    jump = simulation.headline(robot, trajectory=True)
     if jump.trajectory is not None and (row or to or course):
         with status(f"drawing the jumps of {robot.name} …"):
             files[GIF] = motion_gif(robot, viewer_data(robot, jump, recorded(robot, row, to, course)))
@@ -166,11 +146,10 @@ def verify(
         raise typer.Exit(1)
 
 
-def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
+def _require_same_design_file(robot: "jumpcad.Robot", file: Path, folder: Path) -> None:
     """Raise `JumpcadError` if a bundle of the robot's name was made from another design file.
 
-    A design file that differs from the bundle's was edited since the build, or is another one. The dates decide, as in
-    `make`: an edited file is newer than the bundle.
+    The dates decide, as in `make`: a design file that was edited since the build is newer than the bundle.
     """
     from jumpcad.bundle.manifest import DESIGN, open_bundle
 
@@ -189,7 +168,9 @@ def _require_same_design_file(robot: "Robot", file: Path, folder: Path) -> None:
     )
 
 
-def _facts(robot: "Robot", bundle: "Bundle", printed: "Jump", capsule: "Jump") -> dict[str, Any]:
+def _facts(
+    robot: "jumpcad.Robot", bundle: "jumpcad.Bundle", printed: "simulation.Jump", capsule: "simulation.Jump"
+) -> dict[str, Any]:
     """Return the figures that `build` prints."""
     from jumpcad.bundle.limits import limits_of, ordered, violation, with_verdict
     from jumpcad.robot.plates.thing import engraving_findings

@@ -7,7 +7,7 @@ import typer
 
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
 from jumpcad.cli.searching import PlotsOption, require_pictures
-from jumpcad.cli.subjects import SeedOption
+from jumpcad.cli.subjects import File, SeedOption, option
 
 if TYPE_CHECKING:
     from jumpcad.calibration import CalibrationPosterior
@@ -24,15 +24,14 @@ def calibrate(
     files: Annotated[list[str], typer.Argument(help=FILES_HELP, metavar="MEASUREMENTS...")],
     predict: Annotated[list[str] | None, typer.Option(help=PREDICT_HELP, metavar="MEASUREMENTS")] = None,
     output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", help="Write settings for simulate and optimize.", metavar=str(SETTINGS)),
+        File, option("Write settings for simulate and optimize.", str(SETTINGS), "-o", "--output")
     ] = None,
     seed: SeedOption = 0,
     landing: Annotated[
-        bool, typer.Option("--landing", help="Resting places from simulated landings (MuJoCo), not from a free travel.")
+        bool, option("Resting places from simulated landings (MuJoCo), not from a free travel.", None, "--landing")
     ] = False,
     hypotheses: Annotated[
-        bool, typer.Option("--hypotheses", help="Also the odds of other springs or a shared factor (a minute).")
+        bool, option("Also the odds of other springs or a shared factor (a minute).", None, "--hypotheses")
     ] = False,
     plots: PlotsOption = None,
     force: ForceFlag = False,
@@ -72,7 +71,11 @@ def calibrate(
         document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
         write_atomically(output, settings_toml(posterior), force)
     if plots:
-        document["pictures"] = _pictures(posterior, plots, force)
+        from jumpcad.calibration.plots import measurements, parameters
+        from jumpcad.search.report.figures import save_figure
+
+        drawn = {draw.__name__: draw(posterior) for draw in (parameters, measurements)}
+        document["pictures"] = [str(save_figure(figure, plots, name, force)) for name, figure in drawn.items()]
     if as_json:
         print_json(document)
     else:
@@ -92,11 +95,3 @@ def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
         },
         "sampler": {"seed": seed, **{name: getattr(posterior, name) for name in SAMPLER}},
     }
-
-
-def _pictures(posterior: "CalibrationPosterior", folder: Path, force: bool) -> list[str]:
-    from jumpcad.calibration import plots
-    from jumpcad.search.report.figures import save_figure
-
-    drawn = {"parameters": plots.parameters(posterior), "measurements": plots.measurements(posterior)}
-    return [str(save_figure(figure, folder, name, force)) for name, figure in drawn.items()]

@@ -7,18 +7,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad import simulation
+from jumpcad.cli import subjects
 from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
-from jumpcad.cli.subjects import (
-    MaterialOption,
-    OwnDesignArgument,
-    PrinterOption,
-    WorkshopOption,
-    name_of,
-    note_template,
-)
+from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.files import did_you_mean
+from jumpcad.findings import SHOWN_AS, Finding, errors
 
 if TYPE_CHECKING:
-    from jumpcad.findings import Finding
     from jumpcad.robot.robot import Robot
     from jumpcad.strength.growth import Grown
 
@@ -30,9 +26,8 @@ COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
-NextFlag = Annotated[
-    bool, typer.Option("--next", help="Say what each limit costs in range, and a gram of the body: seconds of work.")
-]
+NEXT = "Say what each limit costs in range, and a gram of the body: seconds of work."
+NextFlag = Annotated[bool, subjects.option(NEXT, None, "--next")]
 
 
 def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
@@ -51,14 +46,12 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
 
 def warn_of_no_jump(robot: "Robot") -> None:
     """Print on standard error why a robot does not jump, if so."""
-    from jumpcad.simulation import headline
-
-    jump = headline(robot)
+    jump = simulation.headline(robot)
     if jump.verdict != "jump":
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
 
-def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
+def notes(robot: "Robot", findings: Sequence[Finding]) -> Iterator[str]:
     """Yield what became of a robot by itself: sections that grew, and what bought springs do to its stiffness."""
     if asked := [f"strength.{part} = {more:g}" for part, more in robot.workshop.strength if more != 1.0]:
         yield f"{', '.join(asked)}: {_cost(robot)}"
@@ -70,12 +63,11 @@ def notes(robot: "Robot", findings: "Sequence[Finding]") -> Iterator[str]:
 def _cost(robot: "Robot") -> str:
     """Return what the strength that was asked for costs in mass and distance."""
     from jumpcad.building import build
-    from jumpcad.simulation import headline
     from jumpcad.workshop import varied
 
     plain = {f"strength.{part}": 1.0 for part, _ in robot.workshop.strength}
     before = build(robot.design, varied(robot.workshop, plain), robot.name)
-    far = [1000.0 * (headline(one).touchdown_distance_m or 0.0) for one in (robot, before)]
+    far = [1000.0 * (simulation.headline(one).touchdown_distance_m or 0.0) for one in (robot, before)]
     return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of touchdown"
 
 
@@ -88,13 +80,13 @@ def grown_in_words(grown: "Sequence[Grown]") -> str:
 
 
 def check(
-    design: OwnDesignArgument,
-    workshop: WorkshopOption = None,
-    printer: PrinterOption = None,
-    material: MaterialOption = None,
+    design: subjects.OwnDesignArgument,
+    workshop: subjects.WorkshopOption = None,
+    printer: subjects.PrinterOption = None,
+    material: subjects.MaterialOption = None,
     every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
     explain: Annotated[
-        str, typer.Option("--explain", help="Show one limit alone, with formula and source.", metavar="NAME")
+        str, subjects.option("Show one limit alone, with formula and source.", "NAME", "--explain")
     ] = "",
     what_next: NextFlag = False,
     as_json: JsonFlag = False,
@@ -112,25 +104,21 @@ def check(
     from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
     from jumpcad.checks import CHECKS, basis_of
     from jumpcad.design import load_design
-    from jumpcad.errors import CannotBuildError, JumpcadError
-    from jumpcad.files import did_you_mean
-    from jumpcad.findings import errors
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
-    from jumpcad.simulation import headline
     from jumpcad.workshop import load_workshop, own_workshop
 
-    note_template(design)
+    subjects.note_template(design)
     if explain and basis_of(explain) is None:
         hint = did_you_mean(explain, [name for one in CHECKS for name in one.basis])
         raise JumpcadError(f"no check makes a finding {explain!r}{hint}: jumpcad check DESIGN --all lists them")
     asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
     remedies = Remedies(asked, shop)
     try:
-        robot = build(asked, shop, name_of(design))
+        robot = build(asked, shop, subjects.name_of(design))
     except CannotBuildError as refusal:
         raise remedies.of_refusal(refusal) from None
     bill_of_materials(robot)  # rejects prices of what it does not have
-    jump = headline(robot)
+    jump = simulation.headline(robot)
     findings = remedies.of_findings(ordered(with_verdict(limits_of(robot), jump)))
     count = counted_limits(findings)
     steps, usual_mm = next_steps(robot, findings) if what_next else ([], 0.0)
@@ -158,17 +146,13 @@ def check(
         raise typer.Exit(1)
 
 
-def is_tight(finding: "Finding") -> bool:
+def is_tight(finding: Finding) -> bool:
     """Tell whether a limit that holds is nearly reached: used by `TIGHT` or more, or without a margin."""
-    if finding.use is not None:
-        return finding.use >= TIGHT
-    return margin_in_words(finding) == "at the limit"
+    return margin_in_words(finding) == "at the limit" if finding.use is None else finding.use >= TIGHT
 
 
-def margin_in_words(finding: "Finding") -> str:
+def margin_in_words(finding: Finding) -> str:
     """Return a margin in its printed unit; below `SMALL` it is "at the limit" or "just beyond"."""
-    from jumpcad.findings import SHOWN_AS
-
     unit, factor = SHOWN_AS.get(finding.unit, (finding.unit, 1.0))
     margin = factor * finding.margin
     if unit in COUNTED and margin == 0.0:
@@ -178,7 +162,7 @@ def margin_in_words(finding: "Finding") -> str:
     return f"{margin:+.3g} {unit}".rstrip()
 
 
-def _print_explained(name: str, findings: "list[Finding]") -> None:
+def _print_explained(name: str, findings: list[Finding]) -> None:
     """Print formula and source of a limit, and what was found in this robot."""
     from jumpcad.checks import SYMBOLS, basis_of
 
@@ -197,7 +181,7 @@ def _print_explained(name: str, findings: "list[Finding]") -> None:
         console().print(f"{name}: not a limit of this robot, or reported only where it fails")
 
 
-def _print_findings(findings: "list[Finding]", every: bool) -> None:
+def _print_findings(findings: list[Finding], every: bool) -> None:
     from rich.text import Text
 
     limits = [finding for finding in findings if not finding.is_note]

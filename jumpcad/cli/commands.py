@@ -5,31 +5,19 @@ import logging
 import os
 import sys
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
+from importlib import import_module
 from itertools import pairwise
 from typing import Annotated, Any
 
 import typer
+from typer.completion import shell_complete
 from typer.exceptions import TyperException
 
-from jumpcad.cli import (
-    bundle,
-    calibrate,
-    check,
-    designs,
-    explore,
-    listing,
-    literature,
-    optimize,
-    printing,
-    report,
-    simulate,
-    studio,
-    study,
-)
 from jumpcad.cli.output import OutputClosed, complain, print_json, standard_output
 from jumpcad.errors import CannotBuildError, JumpcadError
+from jumpcad.face import __version__
 from jumpcad.process import raise_if_seen
 
 WRONG_REQUEST, BUG = 2, 3
@@ -43,29 +31,12 @@ COMPLETE = "_JUMPCAD_COMPLETE"
 HELP = ["--help", "-h"]
 
 app = typer.Typer(no_args_is_help=True, pretty_exceptions_enable=False, context_settings={"help_option_names": HELP})
-COMMANDS: dict[str, Callable[..., None]] = {
-    "list": listing.list_names,
-    "new": designs.new,
-    "build": bundle.build,
-    "render": bundle.render,
-    "verify": bundle.verify,
-    "report": report.report,
-    "check": check.check,
-    "compare": report.compare,
-    "slice": printing.slice_command,
-    "coupon": printing.coupon,
-    "simulate": simulate.simulate,
-    "cage": designs.cage,
-    "variants": designs.variants,
-    "calibrate": calibrate.calibrate,
-    "validate": literature.validate,
-    "reproduce": literature.reproduce,
-    "explore": explore.explore,
-    "optimize": optimize.optimize,
-    "study": study.study,
-    "studio": studio.studio,
-}
-"""In the order in which the help lists them."""
+COMMANDS = (
+    "listing.list_names designs.new bundle.build bundle.render bundle.verify report.report check.check report.compare "
+    "printing.slice_command printing.coupon simulate.simulate designs.cage designs.variants calibrate.calibrate "
+    "literature.validate literature.reproduce explore.explore optimize.optimize study.study studio.studio"
+)
+"""Modules and functions in the order in which the help lists them; what follows a _ is no part of a command's name."""
 EXAMPLES = {
     "new": "my-robot.toml --from kenan-2.0",
     "build": "my-robot.toml -o my-bundle",
@@ -73,15 +44,14 @@ EXAMPLES = {
     "simulate": "my-robot.toml --uncertain",
     "optimize": "--seed 0 --study jump.db -o winner.toml",
 }
-for name, command in COMMANDS.items():
+for module, function in (place.split(".") for place in COMMANDS.split()):
+    name = function.split("_")[0]
     example = f"Example: jumpcad {name} {EXAMPLES[name]}" if name in EXAMPLES else None
-    app.command(name, epilog=example)(command)
+    app.command(name, epilog=example)(getattr(import_module(f"jumpcad.cli.{module}"), function))
 
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        from jumpcad.face import __version__
-
         print(f"jumpcad {__version__}")
         raise typer.Exit
 
@@ -149,8 +119,6 @@ def _carry_out(arguments: list[str]) -> int:
         raise JumpcadError("the current folder was deleted, or may not be entered: change into another one") from None
     command = _parser(app)
     if asked := os.environ.get(COMPLETE):
-        from typer.completion import shell_complete
-
         return shell_complete(command, {}, "jumpcad", COMPLETE, asked)
     for option, value in pairwise(arguments):
         if option.startswith("-") and not value:  # else it would be the current folder, or as if not given

@@ -2,18 +2,16 @@
 
 import re
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import jumpcad
 from jumpcad.cli.output import shell_quoted
-
-if TYPE_CHECKING:
-    from jumpcad.design import Design
-    from jumpcad.workshop import Workshop
+from jumpcad.files import find_template, read_toml, template_names, to_toml
 
 LINE = re.compile(r"(?P<key>\w+)(?P<equals> = )(?P<value>.*?)(?P<comment>\s+#.*)?")
 
 
-def commented_design(design: "Design", origin: str, file: str) -> str:
+def commented_design(design: "jumpcad.Design", origin: str, file: str) -> str:
     """Return the TOML document of a design with unit, searched range and effect of every number."""
     from jumpcad.design import PARAMETERS, PRINTED_BOUNDS
     from jumpcad.files.templates import fill
@@ -23,10 +21,8 @@ def commented_design(design: "Design", origin: str, file: str) -> str:
     return fill("texts/design.toml.j2", values)
 
 
-def commented_workshop(workshop: "Workshop", origin: str) -> str:
+def commented_workshop(workshop: "jumpcad.Workshop", origin: str) -> str:
     """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
-    from jumpcad.files import find_template, read_toml, to_toml
-
     shipped, text = read_toml(find_template("workshops", "default"))
     data, printer = workshop.model_dump(mode="json", exclude_none=True), printer_name(workshop)
     changes = {}
@@ -74,9 +70,8 @@ def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def printer_name(workshop: "Workshop") -> str:
+def printer_name(workshop: "jumpcad.Workshop") -> str:
     """Return the name of a workshop's printer; empty if it is not shipped."""
-    from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import Printer
 
     for name in template_names("printers"):
@@ -95,7 +90,6 @@ def _beyond_kit(bought: Mapping[str, Any]) -> dict[str, Any]:
 
 def _others(data: Mapping[str, Any]) -> dict[str, Any]:
     """Return the tables that the default workshop does not have: pins, changed materials, the user's own parts."""
-    from jumpcad.files import find_template, read_toml, template_names
     from jumpcad.workshop import OWN_PARTS
 
     found: dict[str, Any] = {"bought": {"pins": data["bought"]["pins"]}} if data["bought"]["pins"] else {}

@@ -6,45 +6,30 @@ from typing import Annotated
 
 import typer
 
+from jumpcad.cli import subjects
 from jumpcad.cli.check import warn_of_no_jump
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, shell_quoted, status
-from jumpcad.cli.subjects import (
-    DesignArgument,
-    MaterialOption,
-    OwnDesignArgument,
-    PrinterOption,
-    SeedOption,
-    WorkshopOption,
-    completion,
-    note_template,
-    printed_robot,
-)
 from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.files import to_toml
 
 TEMPLATE = "kenan-2.0"
 
+FROM, NEW = (
+    "Design to copy: a template's name or a file.",
+    "Write a workshop file instead, copied from this one: a template's name or a file.",
+)
 FromOption = Annotated[
-    str | None,
-    typer.Option(
-        "--from", help="Design to copy: a template's name or a file.", show_default=TEMPLATE,
-        autocompletion=completion("robots"),
-    ),
-]  # fmt: skip
-NewWorkshopOption = Annotated[
-    str | None,
-    typer.Option(
-        help="Write a workshop file instead, copied from this one: a template's name or a file.",
-        autocompletion=completion("workshops"),
-    ),
+    subjects.Text, subjects.option(FROM, None, "--from", shown=TEMPLATE, autocompletion=subjects.completion("robots"))
 ]
+NewWorkshopOption = Annotated[subjects.Text, subjects.option(NEW, autocompletion=subjects.completion("workshops"))]
 
 
 def new(
     file: Annotated[Path, typer.Argument(help="The file to write.", metavar="FILE.toml")],
     template: FromOption = None,
     workshop: NewWorkshopOption = None,
-    printer: PrinterOption = None,
-    material: MaterialOption = None,
+    printer: subjects.PrinterOption = None,
+    material: subjects.MaterialOption = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -78,8 +63,8 @@ def new(
 
 
 def cage(
-    design: OwnDesignArgument,
-    workshop: WorkshopOption = None,
+    design: subjects.OwnDesignArgument,
+    workshop: subjects.WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="The workshop file; printed without.")] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -91,7 +76,6 @@ def cage(
     """
     from jumpcad.collision.hulls import least_share_on_feet, share_on_feet
     from jumpcad.design import load_design
-    from jumpcad.files import to_toml
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
     from jumpcad.landing.lightest_cage import TRIES, lightest_cage
     from jumpcad.workshop import load_workshop, own_workshop
@@ -99,7 +83,7 @@ def cage(
     if output is not None:
         require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
         require_target(output, (".toml",), force)
-    note_template(design)
+    subjects.note_template(design)
     base = workshop or own_workshop(design)
     with status(f"trying cages for {design} …"):
         robot, landed = lightest_cage(load_design(design), load_workshop(base), TRIES)
@@ -125,11 +109,11 @@ def cage(
 
 
 def variants(
-    design: DesignArgument,
+    design: subjects.DesignArgument,
     count: Annotated[int, typer.Option(help="Number of robots.", min=1, max=10_000)] = 100,
     kind: Annotated[str, typer.Option("--format", help="mjcf or urdf.", metavar="mjcf|urdf")] = "mjcf",
-    seed: SeedOption = 0,
-    workshop: WorkshopOption = None,
+    seed: subjects.SeedOption = 0,
+    workshop: subjects.WorkshopOption = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Folder.", show_default="NAME-variants")] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -149,9 +133,9 @@ def variants(
     require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
     if output is not None:
         require_place(output)
-    note_template(design)
+    subjects.note_template(design)
     with status(f"building {design} …"):
-        robot = printed_robot(design, workshop)
+        robot = subjects.printed_robot(design, workshop)
         made = made_of(robot, count, seed)
     with status(f"writing {count} variants of {robot.name} …"):
         bundle = export_variants(robot, made, output or Path(f"{robot.name}-variants"), kind, force)

@@ -4,19 +4,18 @@ import math
 from collections import Counter
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+import jumpcad
+from jumpcad import search
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, watching, with_options
-from jumpcad.dimensions import counted
+from jumpcad.cli.subjects import Text, option
+from jumpcad.dimensions import counted, unit_of_key
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean
-
-if TYPE_CHECKING:
-    from jumpcad.design import Design
-    from jumpcad.search.study.evaluator import Evaluator
 
 VIEWS = ("sweep", "pca", "importance", "feasibility")
 
@@ -37,19 +36,12 @@ def explore(
     *,
     view: Annotated[str, typer.Argument(help="What to look at.", metavar="|".join(VIEWS))],
     samples: Annotated[
-        int | None,
-        typer.Option(help="Designs sampled for pca and importance.", min=20, max=100_000, show_default=str(SAMPLES)),
+        int | None, option("Designs sampled for pca and importance.", shown=str(SAMPLES), min=20, max=100_000)
     ] = None,
     points: Annotated[int | None, typer.Option(help=ALONG, min=2, max=1000, show_default=str(POINTS))] = None,
-    around: Annotated[
-        str | None,
-        typer.Option(help="The design that sweep and feasibility vary.", metavar="DESIGN", show_default=AROUND),
-    ] = None,
+    around: Annotated[Text, option("The design that sweep and feasibility vary.", "DESIGN", shown=AROUND)] = None,
     over: Annotated[
-        str | None,
-        typer.Option(
-            help="The two parameters of the feasibility map.", metavar="NAME,NAME", show_default=OVER.replace(",", ", ")
-        ),
+        Text, option("The two parameters of the feasibility map.", "NAME,NAME", shown=OVER.replace(",", ", "))
     ] = None,
     options: SearchOptions,
     plots: PlotsOption = None,
@@ -60,27 +52,23 @@ def explore(
 
     With --study, evaluations are kept and not repeated.
     """
-    from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart
     from jumpcad.search.study.database import require_study
-    from jumpcad.search.study.evaluator import Evaluator
-    from jumpcad.search.study.request import Request
-    from jumpcad.search.study.store import StudyStore
 
     if view not in VIEWS:
         raise JumpcadError(f"{view!r} is not one of the views {', '.join(VIEWS)}{did_you_mean(view, VIEWS)}")
-    for option, value in {"samples": samples, "points": points, "around": around, "over": over}.items():
-        if value is not None and view not in USED_BY[option]:
-            raise JumpcadError(f"--{option} {value}: does not apply to {view}, only to {' and '.join(USED_BY[option])}")
+    for name, value in {"samples": samples, "points": points, "around": around, "over": over}.items():
+        if value is not None and view not in USED_BY[name]:
+            raise JumpcadError(f"--{name} {value}: does not apply to {view}, only to {' and '.join(USED_BY[name])}")
     samples, points, over = samples or SAMPLES, points or POINTS, OVER if over is None else over
     require_apart({"--study": options.study, "--plots": plots}, {"--around": around, **options.inputs()})
     require_study(options.study)
     require_plots(plots, force)
     robot = options.robot_model()
     space = options.space(robot)
-    request = Request(space, robot, options.objective, "ga")
+    request = search.Request(space, robot, options.objective, "ga")
     robot, objective = request.model, request.aim
-    centre = load_design(AROUND if around is None else around)
+    centre = jumpcad.load_design(AROUND if around is None else around)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),
@@ -95,12 +83,14 @@ def explore(
         total = sum(counts.values()) if view == "sweep" else math.prod(counts.get(name, points) for name in names)
         view_of = _swept if view == "sweep" else partial(_mapped, names=names)
         run = partial(view_of, centre=centre, points=points)
-    with options.pool() as pool, StudyStore.write(options.study, identity) as store, watching(total, as_json) as watch:
-        data, figures = run(Evaluator(request, store, pool, watch=watch))
+    with (
+        options.pool() as pool,
+        search.StudyStore.write(options.study, identity) as store,
+        watching(total, as_json) as watch,
+    ):
+        data, figures = run(search.Evaluator(request, store, pool, watch=watch))
     if plots is not None:
-        from jumpcad.search.report.figures import save_figure
-
-        data["pictures"] = [str(save_figure(draw(), plots, name, force)) for name, draw in figures.items()]
+        data["pictures"] = [str(search.save_figure(draw(), plots, name, force)) for name, draw in figures.items()]
     if as_json:
         print_json({"view": view, "model": options.model, "objective": objective.name} | data)
     else:
@@ -113,12 +103,8 @@ Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]
 """Data for JSON and text, and functions that draw pictures, by name."""
 
 
-def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
-    from jumpcad.dimensions import unit_of_key
-    from jumpcad.search.explore import sweep
-    from jumpcad.search.report import plots
-
-    sweeps = sweep(evaluator, centre, points)
+def _swept(evaluator: "search.Evaluator", centre: "jumpcad.Design", points: int) -> Found:
+    sweeps = search.sweep(evaluator, centre, points)
     data = {
         one.parameter: [
             {"value": one.names[int(value)] if one.names else value, "score": trial.score,
@@ -129,36 +115,32 @@ def _swept(evaluator: "Evaluator", centre: "Design", points: int) -> Found:
     }  # fmt: skip
     words = {"units": {one.parameter: unit_of_key(one.parameter) for one in sweeps},
              "score_unit": evaluator.objective.unit}  # fmt: skip
-    return {"sweeps": data, **words}, {"sweeps": lambda: plots.sweeps(sweeps, evaluator.objective, centre)}
+    return {"sweeps": data, **words}, {"sweeps": lambda: search.plots.sweeps(sweeps, evaluator.objective, centre)}
 
 
-def _sampled(evaluator: "Evaluator", view: str, samples: int, seed: int) -> Found:
-    from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, components, elite, importance, sample
-    from jumpcad.search.report import plots
+def _sampled(evaluator: "search.Evaluator", view: str, samples: int, seed: int) -> Found:
+    from jumpcad.search.explore import LEAST_R_SQUARED, UNIFORM_NOTE, elite
 
-    trials = sample(evaluator, samples, seed)
+    trials = search.sample(evaluator, samples, seed)
     if view == "importance":
-        found = importance(evaluator, trials, seed)
+        found = search.importance(evaluator, trials, seed)
         order = found.mean.argsort()[::-1]
         means, deviations = ({found.names[i]: of[i] for i in order} for of in (found.mean, found.deviation))
         data = {"importance": means, "deviation": deviations, "r_squared": found.r_squared, "designs": found.designs}
         if found.r_squared < LEAST_R_SQUARED:
             data["note"] = "R² is too low to say what is important: raise --samples, or narrow the bounds"
-        return data, {"importance": lambda: plots.importance(found)}
+        return data, {"importance": lambda: search.plots.importance(found)}
     best = elite(trials)
-    views = {"sampled": components(evaluator, trials), "elite": components(evaluator, best)}
+    views = {"sampled": search.components(evaluator, trials), "elite": search.components(evaluator, best)}
     data = {"note": UNIFORM_NOTE, "parameters": views["elite"].names}
     for name, view_of in views.items():
         data[name] = {"designs": view_of.designs, "shares": view_of.shares, "directions": view_of.directions}
-    return data, {"pca": lambda: plots.components(views)}
+    return data, {"pca": lambda: search.plots.components(views)}
 
 
-def _mapped(evaluator: "Evaluator", centre: "Design", names: list[str], points: int) -> Found:
-    from jumpcad.search.explore import feasibility_map
-    from jumpcad.search.report import plots
-
-    found = feasibility_map(evaluator, centre, names[0], names[1], points)
+def _mapped(evaluator: "search.Evaluator", centre: "jumpcad.Design", names: list[str], points: int) -> Found:
+    found = search.feasibility_map(evaluator, centre, names[0], names[1], points)
     reasons = [[" ".join(trial.evaluation.reasons) or "jump" for trial in line] for line in found.trials]
     x = {"name": found.x_name, "values": found.x_names or found.x}
     y = {"name": found.y_name, "values": found.y_names or found.y}
-    return {"x": x, "y": y, "verdicts": reasons}, {"feasibility": lambda: plots.feasibility(found, centre)}
+    return {"x": x, "y": y, "verdicts": reasons}, {"feasibility": lambda: search.plots.feasibility(found, centre)}

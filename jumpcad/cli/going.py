@@ -4,9 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from jumpcad.cli.output import print_json, print_text, status
+from jumpcad.cli.subjects import File, Text, option
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -15,27 +14,14 @@ if TYPE_CHECKING:
     from jumpcad.robot.robot import Robot
     from jumpcad.settings import Settings
 
-ToOption = Annotated[
-    str | None,
-    typer.Option(
-        "--to",
-        help="Steer to a point, x ahead and y to the left (m); one number: so far, in any direction (MuJoCo).",
-        metavar="X,Y",
-    ),
-]
-CourseOption = Annotated[
-    Path | None, typer.Option("--course", help="Steer along the points of a TOML file, over bars and steps (MuJoCo).")
-]
+TO = "Steer to a point, x ahead and y to the left (m); one number: so far, in any direction (MuJoCo)."
+COURSE = "Steer along the points of a TOML file, over bars and steps (MuJoCo)."
+ToOption = Annotated[Text, option(TO, "X,Y", "--to")]
+CourseOption = Annotated[File, option(COURSE, None, "--course")]
 
 
 def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...] | Course | None":
-    """Return where to go, by either option; None without one.
-
-    Raises
-    ------
-    JumpcadError
-        If both are given, the point is none, or the file cannot be read.
-    """
+    """Return where to go, by either option; None without one."""
     from jumpcad.landing.course import FARTHEST_M, Course
 
     if course is not None:

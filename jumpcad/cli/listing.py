@@ -1,12 +1,15 @@
 """`jumpcad list`: what ships with jumpcad and can be named on the command line or in a workshop."""
 
 from collections.abc import Callable, Mapping
+from itertools import takewhile
 from typing import Annotated, Any
 
 import typer
 
 from jumpcad.cli.output import JsonFlag, console, print_json, table
+from jumpcad.dimensions import unit_of_key
 from jumpcad.errors import JumpcadError
+from jumpcad.files import did_you_mean, find_template, read_toml, template_names
 
 USED_AS = {
     "templates": "a DESIGN of every command; jumpcad new FILE.toml --from NAME",
@@ -29,21 +32,8 @@ USED_AS = {
     "small_motors": "[steering] motor, besides motors",
 }
 """Every kind that is listed, and where its names are used."""
-GROUPS = {
-    "parts": (
-        "kits",
-        "motors",
-        "batteries",
-        "boards",
-        "components",
-        "bearings",
-        "springs",
-        "rods",
-        "pads",
-        "small_motors",
-    )
-}
-"""Names for several kinds."""
+GROUPS = {"parts": tuple(USED_AS)[tuple(USED_AS).index("kits") :]}
+"""Names for several kinds: parts are those from the kits on."""
 FOLDERS = {"templates": "robots", "workshops": "workshops", "settings": "settings"}
 """Kinds whose files begin with a comment that describes them, and their folders."""
 
@@ -55,8 +45,6 @@ KindArgument = Annotated[
 
 def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
     """List what ships: templates, workshops, printers, materials, kits, motors and more."""
-    from jumpcad.files import did_you_mean
-
     if kind is not None and kind not in {*USED_AS, *GROUPS}:
         raise JumpcadError(f"{kind!r} is none of the kinds {', '.join(USED_AS)}{did_you_mean(kind, USED_AS)}")
     found = {name: described(name) for name in (GROUPS.get(kind, (kind,)) if kind else USED_AS)}
@@ -76,8 +64,6 @@ def list_names(kind: KindArgument = None, as_json: JsonFlag = False) -> None:
 
 def described(kind: str) -> dict[str, str]:
     """Return the names of a kind, each with its description."""
-    from jumpcad.files import find_template, read_toml, template_names
-
     if kind in FOLDERS:
         files = {name: find_template(FOLDERS[kind], name) for name in template_names(FOLDERS[kind])}
         return {name: _first_sentence(file.read_text(encoding="utf-8")) for name, file in files.items()}
@@ -94,7 +80,6 @@ def described(kind: str) -> dict[str, str]:
 
         return {name: f"{one.meaning} ({one.unit})" for name, one in OBJECTIVES.items()}
     if kind == "figures":
-        from jumpcad.dimensions import unit_of_key
         from jumpcad.evaluation import FIGURES
 
         units = {name: unit_of_key(name) for name in FIGURES}
@@ -125,12 +110,8 @@ IN_WORDS: dict[str, Callable[[Any], str]] = {
 
 def _first_sentence(text: str) -> str:
     """Return the first sentence of the comment at the beginning of a file."""
-    words = []
-    for line in text.splitlines():
-        if not line.startswith("#") or line.strip() == "#":
-            break
-        words.append(line[1:].strip())
-    return " ".join(words).split(". ")[0].removesuffix(".")
+    lines = takewhile(lambda line: line.startswith("#") and line.strip() != "#", text.splitlines())
+    return " ".join(line[1:].strip() for line in lines).split(". ")[0].removesuffix(".")
 
 
 def _printer(data: Mapping[str, Any]) -> str:

@@ -3,11 +3,9 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
 from jumpcad.cli.searching import PlotsOption, require_pictures
-from jumpcad.cli.subjects import SeedOption
+from jumpcad.cli.subjects import SeedOption, Texts, option
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
@@ -71,8 +69,7 @@ def _shown(value: float | None) -> str:
 
 def validate(
     figure: Annotated[
-        list[str] | None,
-        typer.Option(help="A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", metavar="FIGURE"),
+        Texts, option("A figure that you read in its paper, ROBOT.NAME=VALUE; may be repeated.", "FIGURE")
     ] = None,
     seed: SeedOption = 0,
     plots: PlotsOption = None,

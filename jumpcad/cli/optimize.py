@@ -7,36 +7,27 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from jumpcad import search
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
 from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, watching, with_options
 from jumpcad.cli.seeds import SeedsOption, most_robust, print_seeds, seeds_facts, seeds_of, study_files
+from jumpcad.cli.subjects import File, Texts, argument, option
 from jumpcad.dimensions import counted
 from jumpcad.errors import without_controls
+from jumpcad.findings import Finding, errors
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
-    from jumpcad.findings import Finding
-    from jumpcad.search.models import RobotModel
     from jumpcad.search.study.evaluator import Watch
-    from jumpcad.search.study.request import Request
-    from jumpcad.search.study.result import Result
-    from jumpcad.search.study.trial import Trial
 
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
 _SEQUENCES = "; ".join(f"{name}: {first}, then {second} on its results" for name, (first, second) in SEQUENCES.items())
 
-MethodArgument = Annotated[
-    list[str] | None,
-    typer.Argument(
-        help=f"{_MEANINGS}; {_SEQUENCES}. Without one: {DEFAULT}. Several with --seeds.",
-        metavar=f"[{'|'.join(NAMES)}]…",
-    ),
-]
+_METHODS = f"{_MEANINGS}; {_SEQUENCES}. Without one: {DEFAULT}. Several with --seeds."
+MethodArgument = Annotated[Texts, argument(_METHODS, f"[{'|'.join(NAMES)}]…")]
 EvaluationsOption = Annotated[int, typer.Option(help="Most designs to evaluate, those of the robust pick included.")]
-OutputOption = Annotated[
-    Path | None, typer.Option("-o", "--output", help="The winner's design file.", metavar="FILE.toml", dir_okay=False)
-]
+OutputOption = Annotated[File, option("The winner's design file.", "FILE.toml", "-o", "--output", dir_okay=False)]
 NO_PICK = f"none for the robust pick, which needs {4 * LEAST_PICK} in all"
 
 
@@ -126,7 +117,7 @@ def optimize(
         raise typer.Exit(1)
 
 
-def _before(result: "Result", robot: "RobotModel", centre: "Design | None") -> dict[str, float]:
+def _before(result: "search.Result", robot: "search.RobotModel", centre: "Design | None") -> dict[str, float]:
     """Return the figures of the printed robot that the search began with, whose winner may need stronger springs."""
     if centre is None or result.winner is None or robot.name != "printed":
         return {}
@@ -134,27 +125,25 @@ def _before(result: "Result", robot: "RobotModel", centre: "Design | None") -> d
         return dict(robot(centre).metrics)
 
 
-def _violated(result: "Result", robot: "RobotModel") -> "list[Finding]":
+def _violated(result: "search.Result", robot: "search.RobotModel") -> list[Finding]:
     """Return the limits that a printed winner violates, of those that a search does not look at."""
     from jumpcad.building import build
     from jumpcad.checks import costly_findings
-    from jumpcad.findings import errors
-    from jumpcad.search.models import PrintedModel
 
-    if result.winner is None or not isinstance(robot, PrintedModel):
+    if result.winner is None or not isinstance(robot, search.PrintedModel):
         return []
     with status("checking the winner …"):
         return errors(costly_findings(build(result.design, robot.varied(result.winner.workshop).workshop)))
 
 
-def _headed(request: "Request", path: Path, watch: "Watch") -> "Watch":
+def _headed(request: "search.Request", path: Path, watch: "Watch") -> "Watch":
     """Return a watch that says what is searched before the first trial, when the study was opened without error."""
     name, free = request.model.name, request.space.dimension
     pick = f"{request.pick} for the robust pick" if request.pick else NO_PICK
     study = f"study {without_controls(str(path))}: {request.method} on the {name} robot, free parameters: {free}"
     waiting = [f"{study}\nevaluations: {request.searched} for the search, {pick}"]
 
-    def headed(trial: "Trial", computed: bool) -> None:
+    def headed(trial: "search.Trial", computed: bool) -> None:
         if waiting:
             print(waiting.pop(), flush=True)
         watch(trial, computed)
@@ -162,15 +151,13 @@ def _headed(request: "Request", path: Path, watch: "Watch") -> "Watch":
     return headed
 
 
-def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[Result]", force: bool) -> list[str]:
+def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[search.Result]", force: bool) -> list[str]:
     if folder is None:
         return []
-    from jumpcad.search.report.figures import save_figure
-    from jumpcad.search.report.page import best_so_far, plot_study
-    from jumpcad.search.study.store import StudyStore
+    from jumpcad.search.report.page import best_so_far
 
-    with StudyStore.read(path) as store:
-        pictures = plot_study(store, folder, force)
+    with search.StudyStore.read(path) as store:
+        pictures = search.plot_study(store, folder, force)
     if of_seeds:
-        pictures.append(save_figure(best_so_far(of_seeds), folder, "seeds", force))
+        pictures.append(search.save_figure(best_so_far(of_seeds), folder, "seeds", force))
     return [str(picture) for picture in pictures]

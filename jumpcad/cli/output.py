@@ -1,7 +1,6 @@
 """Output of commands: one JSON document for programs, text for people, one line for errors.
 
-Names and contents of files may hold any character. Control characters are printed escaped, so that they cannot control
-the terminal, and no text is read as markup.
+Control characters, which names of files may have, are printed escaped, and no text is read as markup.
 """
 
 import contextlib

@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import jumpcad
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
+from jumpcad.cli.subjects import File, Text, option
 from jumpcad.errors import without_controls
 
 if TYPE_CHECKING:
     from jumpcad.bundle.sliced import SlicedBundle
-    from jumpcad.workshop import Workshop
 
 FOLDER = Path("exports/coupon")
 WORKSHOP = Path("my-workshop.toml")
@@ -20,9 +21,7 @@ WIDE = 120
 
 
 def coupon(
-    measured: Annotated[
-        Path | None, typer.Option(help="Turn these readings into a workshop file.", metavar="READINGS.toml")
-    ] = None,
+    measured: Annotated[File, option("Turn these readings into a workshop file.", "READINGS.toml")] = None,
     workshop: Annotated[str, typer.Option(help="Workshop: a template's name or a file.")] = "default",
     output: Annotated[Path | None, typer.Option("-o", "--output", help=OUTPUT, show_default=DEFAULTS)] = None,
     force: ForceFlag = False,
@@ -45,9 +44,8 @@ def coupon(
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
     """Write the coupon; return its folder, files and mass."""
     from jumpcad.bundle.export import export_coupon
-    from jumpcad.workshop import load_workshop
 
-    bundle = export_coupon(load_workshop(workshop), folder, force)
+    bundle = export_coupon(jumpcad.load_workshop(workshop), folder, force)
     return {"folder": str(folder), "files": [*bundle.files], "grams": 1000.0 * bundle.manifest["mass_kg"]}
 
 
@@ -55,10 +53,9 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     """Write the complete workshop with the measured fits; return the changed values."""
     from jumpcad.coupon.readings import Readings, measured_workshop
     from jumpcad.files.outputs import require_target, write_atomically
-    from jumpcad.workshop import load_workshop
 
     require_target(output, (".toml",), force)
-    base = load_workshop(workshop)
+    base = jumpcad.load_workshop(workshop)
     found = measured_workshop(Readings.from_toml(readings), base, str(readings))
     before, after = base.fits.model_dump(), found.fits.model_dump()
     changed = {key: value for key, value in after.items() if value != before[key]}
@@ -71,16 +68,15 @@ def _measured(readings: Path, workshop: str, output: Path, force: bool) -> dict[
     }
 
 
-def _with_comments(workshop: str, output: Path, found: "Workshop", fits: dict[str, float]) -> str:
+def _with_comments(workshop: str, output: Path, found: "jumpcad.Workshop", fits: dict[str, float]) -> str:
     """Return the measured workshop as TOML with the comments of the one that it is made from, where that can be."""
     import tomllib
 
     from jumpcad.cli.commented import changed_toml, commented_workshop
     from jumpcad.files import find_template, read_toml
-    from jumpcad.workshop import load_workshop
 
     source = find_template("workshops", workshop)
-    data, base = read_toml(source)[0], load_workshop(workshop)
+    data, base = read_toml(source)[0], jumpcad.load_workshop(workshop)
     relative = any(isinstance(data.get(key), str) and data[key].endswith(".toml") for key in ("base", "printer"))
     if relative and source.parent.resolve() != output.parent.resolve():
         return commented_workshop(found, workshop)
@@ -97,7 +93,7 @@ def _with_comments(workshop: str, output: Path, found: "Workshop", fits: dict[st
     return text
 
 
-def _lowered(base: "Workshop", found: "Workshop", key: str) -> dict[str, dict[str, float]]:
+def _lowered(base: "jumpcad.Workshop", found: "jumpcad.Workshop", key: str) -> dict[str, dict[str, float]]:
     """Return a strength before and after, of the materials in which it was changed."""
     strengths = {name: (getattr(one, key), getattr(found.materials[name], key)) for name, one in base.materials.items()}
     return {name: {"before": before, "after": after} for name, (before, after) in strengths.items() if before != after}
@@ -105,12 +101,9 @@ def _lowered(base: "Workshop", found: "Workshop", key: str) -> dict[str, dict[st
 
 def slice_command(
     bundle: Annotated[Path, typer.Argument(help="A bundle's folder.", metavar="BUNDLE")],
-    workshop: Annotated[
-        str | None, typer.Option(help="Print with another workshop: a template's name or a file.")
-    ] = None,
+    workshop: Annotated[Text, option("Print with another workshop: a template's name or a file.")] = None,
     write_masses: Annotated[
-        Path | None,
-        typer.Option(help="Write the workshop, complete, with the sliced masses as weighed ones.", metavar="FILE.toml"),
+        File, option("Write the workshop, complete, with the sliced masses as weighed ones.", "FILE.toml")
     ] = None,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -122,12 +115,11 @@ def slice_command(
     """
     from jumpcad.bundle.sliced import slice_bundle, write_times
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
-    from jumpcad.workshop import load_workshop
 
     require_apart({"--write-masses": write_masses}, {"--workshop": workshop})
     if write_masses is not None:
         require_target(write_masses, (".toml",), force)
-    printed_by = load_workshop(workshop) if workshop else None
+    printed_by = jumpcad.load_workshop(workshop) if workshop else None
     with status("slicing …") as tell:
         found = slice_bundle(bundle, printed_by, lambda name: tell(f"slicing {name} …"))
     if write_masses is not None:

@@ -8,19 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from jumpcad.cli import subjects
 from jumpcad.cli.check import NextFlag, warn_of_no_jump
 from jumpcad.cli.going import CourseOption, ToOption, recorded
 from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table
-from jumpcad.cli.subjects import (
-    RowOption,
-    WorkshopOption,
-    bundle_of,
-    name_of,
-    note_template,
-    printed_robot,
-    reject_workshop,
-)
 from jumpcad.errors import JumpcadError, without_controls
+from jumpcad.findings import errors
 
 if TYPE_CHECKING:
     from jumpcad.landing.course import Trip
@@ -29,17 +22,17 @@ if TYPE_CHECKING:
 
 PAGE = "report.html"
 STUDY = ".db"
+SUBJECT = "A bundle, a template, a design file, or a study file."
+ROBOTS = "Templates, design files, bundles, trials of a study as F.db#28."
 
 
 def report(
-    subject: Annotated[
-        str, typer.Argument(help="A bundle, a template, a design file, or a study file.", metavar="BUNDLE|DESIGN|F.db")
-    ],
+    subject: Annotated[str, subjects.argument(SUBJECT, "BUNDLE|DESIGN|F.db")],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="File of the page [BUNDLE/report.html, or NAME-report.html].")
+        subjects.File, subjects.output("File of the page [BUNDLE/report.html, or NAME-report.html].")
     ] = None,
-    workshop: WorkshopOption = None,
-    row: RowOption = None,
+    workshop: subjects.WorkshopOption = None,
+    row: subjects.RowOption = None,
     to: ToOption = None,
     course: CourseOption = None,
     what_next: NextFlag = False,
@@ -66,7 +59,8 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
     from jumpcad.search.report.page import write_study_page
     from jumpcad.search.study.store import StudyStore
 
-    reject_workshop(workshop, f"{study} is a study, which keeps the workshop of its robots; leave --workshop out")
+    why = f"{study} is a study, which keeps the workshop of its robots; leave --workshop out"
+    subjects.reject_workshop(workshop, why)
     page = output or Path(f"{study.stem}-{PAGE}")
     require_apart({"--output": page}, {"the study": study})
     require_target(page, (".html",), force)
@@ -80,7 +74,6 @@ def _robot_page(
     subject: str, output: Path | None, workshop: str | None, series: "Callable[[Robot], Series | Trip | None]",
     what_next: bool, force: bool,
 ) -> Path:  # fmt: skip
-    """Write the page of a robot; return its path."""
     from jumpcad.bundle.atomic_write import change_files, require_unedited
     from jumpcad.bundle.export import report_page
     from jumpcad.bundle.limits import limits_of
@@ -88,15 +81,15 @@ def _robot_page(
     from jumpcad.remedies import next_steps, steps_in_words
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
-    note_template(subject)
-    bundle = bundle_of(subject, workshop) if output is None else None
-    page = output or (bundle.folder / PAGE if bundle else Path(f"{name_of(subject)}-{PAGE}"))
+    subjects.note_template(subject)
+    bundle = subjects.bundle_of(subject, workshop) if output is None else None
+    page = output or (bundle.folder / PAGE if bundle else Path(f"{subjects.name_of(subject)}-{PAGE}"))
     if bundle:
         require_unedited(bundle, [PAGE], force)
     else:
         require_target(page, (".html",), force)
     with status(f"building {subject} …"):
-        robot = printed_robot(subject, workshop)
+        robot = subjects.printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         steps = steps_in_words(*next_steps(robot, limits_of(robot))) if what_next else ()
         text = report_page(robot, bundle.files if bundle else (), series(robot), steps)
@@ -109,11 +102,8 @@ def _robot_page(
 
 
 def compare(
-    robots: Annotated[
-        list[str],
-        typer.Argument(help="Templates, design files, bundles, trials of a study as F.db#28.", metavar="A B…"),
-    ],
-    workshop: WorkshopOption = None,
+    robots: Annotated[list[str], subjects.argument(ROBOTS, "A B…")],
+    workshop: subjects.WorkshopOption = None,
     output: Annotated[Path, typer.Option("-o", "--output", help="File of the page.")] = Path("comparison.html"),
     force: ForceFlag = False,
     as_json: JsonFlag = False,
@@ -126,13 +116,12 @@ def compare(
     """
     from jumpcad.comparison import compare as compare_robots
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
-    from jumpcad.findings import errors
     from jumpcad.workshop import load_workshop
 
     require_apart({"--output": output}, {"a robot": robots[0], "--workshop": workshop})
     require_target(output, (".html",), force)
     for one in robots:
-        note_template(one)
+        subjects.note_template(one)
     with status(f"comparing {', '.join(robots)} …"):
         found = compare_robots(robots, load_workshop(workshop) if workshop else None)
         write_atomically(output, sealed(found.to_html(), "<!-- {} -->"), force)

@@ -10,93 +10,66 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
-import typer
-
+from jumpcad import search
 from jumpcad.cli.output import status
-from jumpcad.cli.subjects import SeedOption
+from jumpcad.cli.subjects import WORKSHOP, File, SeedOption, Text, Texts, option
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.search.methods import PAPER, SEARCH_PHASES, UNTIL_PERCENT
 
 if TYPE_CHECKING:
-    from jumpcad.search.models import RobotModel
-    from jumpcad.search.space import Space
     from jumpcad.search.study.evaluator import Watch
-    from jumpcad.search.study.pool import Pool
-    from jumpcad.search.study.request import Request
-    from jumpcad.search.study.trial import Trial
 
-PlotsOption = Annotated[
-    Path | None, typer.Option(help="Write pictures (SVG and PNG) into this folder.", metavar="FOLDER", file_okay=False)
-]
+PlotsOption = Annotated[File, option("Write pictures (SVG and PNG) into this folder.", "FOLDER", file_okay=False)]
 KEYWORD = inspect.Parameter.KEYWORD_ONLY
+OBJECTIVES = (
+    "body_lengths, touchdown, rest, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, "
+    "metres-per-charge, or an own function of a jump's figures."
+)
+USUAL = "body_lengths; fitness of robots that are not printed"
+BOUND = "Search a parameter, or a value of the workshop, in a range; study: within the study's bounds."
+SETTINGS = "Settings of the simulation: a template's name or a file."
+UNTIL = "End when the last steps of BO gain less than this share of the best score; 0: never."
+AGAINST = "For pareto and nsga2: electrical-energy, spring-energy, mass, winding-time, or another objective."
+USUAL_COST = "electrical-energy; spring-energy of robots that are not printed"
+REQUIRE = "Keep a figure, or the margin of a limit, within limits: -30<=touchdown_pitch_deg<=30."
 
 
 @dataclass(frozen=True)
 class SearchOptions:
     """The options that `explore` and `optimize` have in common."""
 
-    model: Annotated[str, typer.Option(help="The robot that is evaluated: printed, capsule or published.")] = "printed"
-    objective: Annotated[
-        str | None,
-        typer.Option(
-            help="body_lengths, touchdown, rest, fitness, range, rise, range-per-joule, range-per-spring-joule, "
-            "jumps-per-joule, metres-per-charge, or an own function of a jump's figures.",
-            metavar="NAME|FILE.py:FUNCTION",
-            show_default="body_lengths; fitness of robots that are not printed",
-        ),
-    ] = None
-    study: Annotated[
-        Path | None, typer.Option(help="The study file, new or to be continued.", metavar="F.db", dir_okay=False)
-    ] = None
+    model: Annotated[str, option("The robot that is evaluated: printed, capsule or published.")] = "printed"
+    objective: Annotated[Text, option(OBJECTIVES, "NAME|FILE.py:FUNCTION", shown=USUAL)] = None
+    study: Annotated[File, option("The study file, new or to be continued.", "F.db", dir_okay=False)] = None
     seed: SeedOption = 0
-    fix: Annotated[
-        list[str] | None, typer.Option(help="Fix a parameter, or a value of the workshop.", metavar="NAME=VALUE")
-    ] = None
-    bound: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Search a parameter, or a value of the workshop, in a range; study: within the study's bounds.",
-            metavar="NAME=LO:HI",
-        ),
-    ] = None
-    choose: Annotated[
-        list[str] | None, typer.Option(help="Allow some values only: bought.battery=a,b.", metavar="NAME=a,b,c")
-    ] = None
-    workshop: Annotated[
-        str | None,
-        typer.Option(help="Workshop of the printed robot: a template's name or a file.", show_default="default"),
-    ] = None
-    settings: Annotated[
-        str | None,
-        typer.Option(help="Settings of the simulation: a template's name or a file.", show_default="default"),
-    ] = None
-    engine: Annotated[str | None, typer.Option(help="pybullet, mujoco or planar; else the first installed.")] = None
-    workers: Annotated[int | None, typer.Option(help="Processes, one for each core unless given; 0 for none.")] = None
-    dask: Annotated[
-        str | None, typer.Option(help="Scheduler of a Dask cluster instead of processes.", metavar="ADDRESS")
-    ] = None
-    limit: Annotated[
-        float, typer.Option(help="Timeout per evaluation (s), own objectives apart.", metavar="SECONDS")
-    ] = 60.0
+    fix: Annotated[Texts, option("Fix a parameter, or a value of the workshop.", "NAME=VALUE")] = None
+    bound: Annotated[Texts, option(BOUND, "NAME=LO:HI")] = None
+    choose: Annotated[Texts, option("Allow some values only: bought.battery=a,b.", "NAME=a,b,c")] = None
+    workshop: Annotated[Text, option(WORKSHOP, shown="default")] = None
+    settings: Annotated[Text, option(SETTINGS, shown="default")] = None
+    engine: Annotated[Text, option("pybullet, mujoco or planar; else the first installed.")] = None
+    workers: Annotated[int | None, option("Processes, one for each core unless given; 0 for none.")] = None
+    dask: Annotated[Text, option("Scheduler of a Dask cluster instead of processes.", "ADDRESS")] = None
+    limit: Annotated[float, option("Timeout per evaluation (s), own objectives apart.", "SECONDS")] = 60.0
 
-    def robot_model(self) -> "RobotModel":
+    def robot_model(self) -> "search.RobotModel":
         """Return the model that the options describe."""
         from jumpcad.search.models import robot_model
 
         return robot_model(self.model, self.workshop, self.settings, self.engine)
 
-    def space(self, robot: "RobotModel", **others: Any) -> "Space":
+    def space(self, robot: "search.RobotModel", **others: Any) -> "search.Space":
         """Return the space of a robot's workshop that the options describe."""
-        from jumpcad.search.space import Space
-
-        return Space.parse(self.fix or (), self.bound or (), self.choose or (), workshop=robot.workshop, **others)
+        return search.Space.parse(
+            self.fix or (), self.bound or (), self.choose or (), workshop=robot.workshop, **others
+        )
 
     def inputs(self) -> dict[str, str | None]:
         """Return the files that are read, by their options."""
         return {"--workshop": self.workshop, "--settings": self.settings}
 
-    def pool(self) -> "Pool":
+    def pool(self) -> "search.Pool":
         from jumpcad.search.study.pool import open_pool
 
         return open_pool(self.workers, self.dask, self.limit)
@@ -107,61 +80,28 @@ class OptimizeOptions(SearchOptions):
     """All that decides the searches of `optimize`, but their methods and number of evaluations."""
 
     around: Annotated[
-        str | None,
-        typer.Option(help="The design from which --only and --within start; it is evaluated first.", metavar="DESIGN"),
+        Text, option("The design from which --only and --within start; it is evaluated first.", "DESIGN")
     ] = None
-    start: Annotated[
-        list[str] | None, typer.Option(help="A design to begin with; may be repeated.", metavar="DESIGN")
-    ] = None
-    only: Annotated[
-        str | None, typer.Option(help="Search these parameters only; the others as in --around.", metavar="NAME,…")
-    ] = None
-    within: Annotated[
-        float | None, typer.Option(help="Search within ± this percentage of each range.", metavar="PERCENT")
-    ] = None
-    preset: Annotated[str, typer.Option(help="Settings of the genetic algorithm: recommended or published.")] = (
-        "recommended"
-    )
-    batch: Annotated[int, typer.Option(help="BO proposals evaluated in parallel: more than 1 for many workers.")] = 1
-    from_study: Annotated[
-        Path | None, typer.Option(help="An earlier study to learn from.", metavar="F.db", dir_okay=False)
-    ] = None
-    until: Annotated[
-        float,
-        typer.Option(
-            help="End when the last steps of BO gain less than this share of the best score; 0: never.",
-            metavar="PERCENT",
-        ),
-    ] = UNTIL_PERCENT
-    hours: Annotated[
-        float, typer.Option(help="End the search after this time, 0: never; the same command goes on.")
-    ] = 0.0
+    start: Annotated[Texts, option("A design to begin with; may be repeated.", "DESIGN")] = None
+    only: Annotated[Text, option("Search these parameters only; the others as in --around.", "NAME,…")] = None
+    within: Annotated[float | None, option("Search within ± this percentage of each range.", "PERCENT")] = None
+    preset: Annotated[str, option("Settings of the genetic algorithm: recommended or published.")] = "recommended"
+    batch: Annotated[int, option("BO proposals evaluated in parallel: more than 1 for many workers.")] = 1
+    from_study: Annotated[File, option("An earlier study to learn from.", "F.db", dir_okay=False)] = None
+    until: Annotated[float, option(UNTIL, "PERCENT")] = UNTIL_PERCENT
+    hours: Annotated[float, option("End the search after this time, 0: never; the same command goes on.")] = 0.0
     screen: Annotated[
-        bool, typer.Option("--screen", help="For ga: leave out candidates that a quick estimate finds too bad.")
+        bool, option("For ga: leave out candidates that a quick estimate finds too bad.", None, "--screen")
     ] = False
-    against: Annotated[
-        str | None,
-        typer.Option(
-            help="For pareto and nsga2: electrical-energy, spring-energy, mass, winding-time, or another objective.",
-            metavar="NAME",
-            show_default="electrical-energy; spring-energy of robots that are not printed",
-        ),
-    ] = None
-    require: Annotated[
-        list[str] | None,
-        typer.Option(
-            help="Keep a figure, or the margin of a limit, within limits: -30<=touchdown_pitch_deg<=30.",
-            metavar="LIMITS",
-        ),
-    ] = None
+    against: Annotated[Text, option(AGAINST, "NAME", shown=USUAL_COST)] = None
+    require: Annotated[Texts, option(REQUIRE, "LIMITS")] = None
 
-    def robot_model(self) -> "RobotModel":
+    def robot_model(self) -> "search.RobotModel":
         return super().robot_model().requiring(self.require or ())
 
-    def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[Request]":
+    def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[search.Request]":
         """Return what is asked for, with each method and seed."""
         from jumpcad.design import load_design
-        from jumpcad.search.study.request import Request
 
         begun = [load_design(one) for one in self.start or ()]
         centre = None if self.around is None else load_design(self.around)
@@ -169,7 +109,7 @@ class OptimizeOptions(SearchOptions):
         robot = self.robot_model()
         space = self.space(robot, around=centre, only=only, within_percent=self.within, study=PAPER in methods)
         return [
-            Request(
+            search.Request(
                 space, robot, self.objective, method, evaluations, seed, self.preset, self.batch, self.from_study,
                 self.until, self.hours, self.screen, self.against, begun, centre,
             )
@@ -225,17 +165,14 @@ def require_pictures(folder: Path, names: Iterable[str], force: bool) -> None:
 
 
 class Tally:
-    """Progress of a search: evaluations done, best score, rate and time left.
-
-    Trials that are read from the study file count as done, but not for the rate.
-    """
+    """Progress of a search: evaluations done, also read from the study, best score, rate of the others, time left."""
 
     def __init__(self, total: int) -> None:
         self._total, self._done, self._computed = total, 0, 0
         self._best: float | None = None
         self._start_s = time.monotonic()
 
-    def add(self, trial: "Trial", computed: bool) -> str:
+    def add(self, trial: "search.Trial", computed: bool) -> str:
         """Count a trial, which was `computed` or read from the study file; return the progress as one line of text."""
         self._done += 1
         self._total = max(self._total, self._done)

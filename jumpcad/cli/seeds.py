@@ -6,23 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
-import typer
-
+from jumpcad import search
 from jumpcad.cli.output import console, table
+from jumpcad.cli.subjects import Text, option
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.search.methods import FRONTS
 
-if TYPE_CHECKING:
-    from jumpcad.search.study.request import Request
-    from jumpcad.search.study.result import Result
-
-SeedsOption = Annotated[
-    str | None,
-    typer.Option(help="A search with each of these seeds: 0:10 for 0 to 9. Methods are compared.", metavar="FIRST:END"),
-]
+SEEDS = "A search with each of these seeds: 0:10 for 0 to 9. Methods are compared."
+SeedsOption = Annotated[Text, option(SEEDS, "FIRST:END")]
 MOST_SEEDS = 1000
 
 
@@ -44,7 +38,7 @@ def seeds_of(text: str | None, methods: Sequence[str], seed_given: bool) -> rang
     return seeds
 
 
-def study_files(requests: Sequence["Request"], study: Path | None) -> list[Path]:
+def study_files(requests: Sequence["search.Request"], study: Path | None) -> list[Path]:
     """Return a study file for each search: the usual name, or that of `study` with the method if there are several."""
     several, files = len({one.method for one in requests}) > 1, []
     for one in requests:
@@ -54,10 +48,10 @@ def study_files(requests: Sequence["Request"], study: Path | None) -> list[Path]
     return files
 
 
-def most_robust(results: Sequence["Result"]) -> int:
+def most_robust(results: Sequence["search.Result"]) -> int:
     """Return which search has the best winner: of those whose neighbours were tried, by what these reach."""
 
-    def merit(one: "Result") -> tuple[bool, bool, float]:
+    def merit(one: "search.Result") -> tuple[bool, bool, float]:
         if one.winner is None or not one.candidates:
             return False, one.winner is not None, one.score if one.winner else 0.0
         return True, not one.candidates[0].fails, one.candidates[0].robust_score
@@ -65,7 +59,7 @@ def most_robust(results: Sequence["Result"]) -> int:
     return max(range(len(results)), key=lambda index: merit(results[index]))
 
 
-def seeds_facts(results: Sequence["Result"], paths: Sequence[Path]) -> dict[str, Any]:
+def seeds_facts(results: Sequence["search.Result"], paths: Sequence[Path]) -> dict[str, Any]:
     """Return plain data for JSON: the figures of each search, and of each method.
 
     A search without a jump is the worst: a median or a least score that falls on it is not finite.

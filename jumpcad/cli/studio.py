@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from jumpcad.cli.subjects import WorkshopOption, bundle_of, design_file
+from jumpcad.cli.subjects import WorkshopOption, argument, bundle_of, design_file, option
 from jumpcad.errors import JumpcadError
+from jumpcad.process import collect_usually
 
 if TYPE_CHECKING:
     from jumpcad.design import Design
@@ -18,13 +19,9 @@ STUDY = ".db"
 
 
 def studio(
-    design: Annotated[
-        str, typer.Argument(help="A template, a design file, a bundle, or a study.", metavar="DESIGN|F.db")
-    ] = "kenan-2.0",
+    design: Annotated[str, argument("A template, a design file, a bundle, or a study.", "DESIGN|F.db")] = "kenan-2.0",
     workshop: WorkshopOption = None,
-    trial: Annotated[
-        int | None, typer.Option(help="Trial of the study, numbered from 1.", show_default="the best", metavar="N")
-    ] = None,
+    trial: Annotated[int | None, option("Trial of the study, numbered from 1.", "N", shown="the best")] = None,
     port: Annotated[int, typer.Option(help="Port of the page, on this computer alone.", min=1, max=65535)] = PORT,
 ) -> None:
     """Change the eight numbers in a browser and see the robot that they give, wind and jump (extra `studio`)."""
@@ -33,7 +30,6 @@ def studio(
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
     from jumpcad.files.templates import template_names
-    from jumpcad.process import collect_usually
     from jumpcad.studio import Studio
 
     is_study = design.endswith(STUDY) and not os.path.isdir(design)

@@ -2,17 +2,17 @@
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+from jumpcad import search
 from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
 from jumpcad.cli.searching import PlotsOption, require_plots
+from jumpcad.cli.subjects import File, option
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
-
-if TYPE_CHECKING:
-    from jumpcad.search.study.store import StudyStore
+from jumpcad.search.methods import METHODS, SEARCH_PHASES
 
 WATCH_S = 5.0
 
@@ -20,20 +20,17 @@ WATCH_S = 5.0
 def study(
     files: Annotated[list[Path], typer.Argument(help="One study to show, or several to compare.", metavar="F.db…")],
     best: Annotated[int, typer.Option("--list", help="Number of best trials to show.", metavar="COUNT", min=0)] = 5,
-    export: Annotated[
-        Path | None, typer.Option(help="Write all trials to FILE.csv or FILE.parquet.", metavar="FILE")
-    ] = None,
+    export: Annotated[File, option("Write all trials to FILE.csv or FILE.parquet.", "FILE")] = None,
     plots: PlotsOption = None,
     force: ForceFlag = False,
     watch: Annotated[
-        bool, typer.Option("--watch", help="Print the progress of the search until it ends, then the study.")
+        bool, option("Print the progress of the search until it ends, then the study.", None, "--watch")
     ] = False,
     as_json: JsonFlag = False,
 ) -> None:
     """Show a study, also while it runs; compare several; export the trials."""
     from jumpcad.files.outputs import require_apart, require_target
-    from jumpcad.search.study.store import StudyStore
-    from jumpcad.search.study.trial import TABLES, write_table
+    from jumpcad.search.study.trial import TABLES
 
     if len(files) > 1 and (export or plots):
         raise JumpcadError("--export and --plots are for one study; name one file")
@@ -47,19 +44,15 @@ def study(
         _watch(files[0])
     summaries = []
     for file in files:
-        with StudyStore.read(file) as store:
+        with search.StudyStore.read(file) as store:
             summaries.append(_summary(file, store, best))
             if export is not None:
-                write_table(store.trials(), export, force)
+                search.write_table(store.trials(), export, force)
             if plots is not None:
-                from jumpcad.search.report.page import plot_study
-
-                summaries[-1]["pictures"] = [str(picture) for picture in plot_study(store, plots, force)]
+                summaries[-1]["pictures"] = [str(picture) for picture in search.plot_study(store, plots, force)]
     if as_json:
         print_json(summaries[0] if len(files) == 1 else {"studies": summaries})
     elif len(files) == 1:
-        from jumpcad.search.methods import METHODS
-
         (summary,) = summaries
         method = summary["identity"]["method"]
         done = _done(summary["evaluations"], summary["planned"])
@@ -70,15 +63,13 @@ def study(
 
 def _watch(file: Path) -> None:
     """Print the progress of a search whenever it changes, until no search writes the study."""
-    from jumpcad.search.methods import SEARCH_PHASES
     from jumpcad.search.study.database import is_written
     from jumpcad.search.study.objective import described_objective
-    from jumpcad.search.study.store import StudyStore
 
     printed = ""
     while True:
         running = is_written(file)  # before reading, so that the last trials are read too
-        with StudyStore.read(file) as store:
+        with search.StudyStore.read(file) as store:
             counts, best = store.progress()
             planned = sum(stage["evaluations"] for stage in store.recall("stages", []))
             objective = described_objective(store.identity)
@@ -94,7 +85,7 @@ def _watch(file: Path) -> None:
         time.sleep(WATCH_S)
 
 
-def _summary(file: Path, store: "StudyStore", best: int) -> dict[str, Any]:
+def _summary(file: Path, store: "search.StudyStore", best: int) -> dict[str, Any]:
     from jumpcad.search.study.store import ENDED
     from jumpcad.search.study.trial import count_rejections, feasible_trials, searched, trial_numbers
 

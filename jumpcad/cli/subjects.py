@@ -4,61 +4,55 @@ import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from jumpcad.errors import JumpcadError
+from jumpcad.files import find_template, template_names
 
 if TYPE_CHECKING:
     from jumpcad.bundle.manifest import Bundle
     from jumpcad.mechanism.model import Multibody
     from jumpcad.robot.robot import Robot
 
+Text = str | None
+Texts = list[str] | None
+File = Path | None
+
+
+def option(help: str, metavar: str | None = None, *names: str, shown: str | bool = True, **more: Any) -> Any:
+    """Return an option with its help; `shown` is what stands there for a default."""
+    return typer.Option(*names, help=help, metavar=metavar, show_default=shown, **more)
+
+
+def output(help: str, shown: str | bool = True) -> Any:
+    """Return the option `--output` of a command."""
+    return option(help, None, "-o", "--output", shown=shown)
+
+
+def argument(help: str, metavar: str, **more: Any) -> Any:
+    """Return an argument with its help."""
+    return typer.Argument(help=help, metavar=metavar, **more)
+
 
 def completion(kind: str) -> Callable[[str], list[str]]:
     """Return the shell completion for the names of a kind of templates."""
-
-    def names(incomplete: str) -> list[str]:
-        from jumpcad.files import template_names
-
-        return [name for name in template_names(kind) if name.startswith(incomplete.lower())]
-
-    return names
+    return lambda incomplete: [name for name in template_names(kind) if name.startswith(incomplete.lower())]
 
 
-DesignArgument = Annotated[
-    str,
-    typer.Argument(
-        help="A template's name, a design file, a bundle.", metavar="DESIGN|BUNDLE", autocompletion=completion("robots")
-    ),
-]
-OwnDesignArgument = Annotated[
-    str,
-    typer.Argument(help="A template's name or a design file.", metavar="DESIGN", autocompletion=completion("robots")),
-]
+ROBOTS = {"autocompletion": completion("robots")}
+DesignArgument = Annotated[str, argument("A template's name, a design file, a bundle.", "DESIGN|BUNDLE", **ROBOTS)]
+OwnDesignArgument = Annotated[str, argument("A template's name or a design file.", "DESIGN", **ROBOTS)]
 SeedOption = Annotated[int, typer.Option(help="Random seed.", min=0, max=2**32 - 1)]
 RowOption = Annotated[int | None, typer.Option("--jumps", help="Show so many jumps in a row (MuJoCo).", min=1, max=20)]
-WorkshopOption = Annotated[
-    str | None,
-    typer.Option(
-        help="Workshop of the printed robot: a template's name or a file.",
-        show_default="default; best-jumper, best-steered and first-robot have their own",
-        autocompletion=completion("workshops"),
-    ),
-]
-PrinterOption = Annotated[
-    str | None,
-    typer.Option(
-        help="Printer instead of the workshop's: see jumpcad list printers.", autocompletion=completion("printers")
-    ),
-]
-MaterialOption = Annotated[
-    str | None,
-    typer.Option(
-        help="One material for all printed parts: see jumpcad list materials.", autocompletion=completion("materials")
-    ),
-]
+WORKSHOP = "Workshop of the printed robot: a template's name or a file."
+OWN_WORKSHOPS = "default; best-jumper, best-steered and first-robot have their own"
+PRINTER = "Printer instead of the workshop's: see jumpcad list printers."
+MATERIAL = "One material for all printed parts: see jumpcad list materials."
+WorkshopOption = Annotated[Text, option(WORKSHOP, shown=OWN_WORKSHOPS, autocompletion=completion("workshops"))]
+PrinterOption = Annotated[Text, option(PRINTER, autocompletion=completion("printers"))]
+MaterialOption = Annotated[Text, option(MATERIAL, autocompletion=completion("materials"))]
 
 
 def note_template(subject: str) -> None:
@@ -112,8 +106,6 @@ def name_of(subject: str) -> str:
 
 def design_file(subject: str) -> Path:
     """Return the design file of a bundle, a template or a path."""
-    from jumpcad.files import find_template
-
     bundle = bundle_of(subject)
     return bundle.file("design.toml") if bundle else find_template("robots", subject)
 
@@ -138,6 +130,4 @@ def reject_workshop(workshop: str | None, reason: str) -> None:
 
 
 def _is_template(subject: str) -> bool:
-    from jumpcad.files import template_names
-
     return subject in template_names("robots")

@@ -7,7 +7,6 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,10 +19,7 @@ from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
-from jumpcad.transforms import Array, chained
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, Trimesh, chained
 
 SOLE_MM = 0.5
 """How far the foot's hull stays above its sole, so that a standing robot stands on its contact spheres alone."""
@@ -35,7 +31,7 @@ CORNERS, OF_FACE, FLAT_MM = 32, 12, 0.001
 """Most corners of a hull, and of one of its faces, which are so flat: MJX takes 20 of a face, and time for each."""
 
 
-def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> "dict[str, trimesh.Trimesh]":
+def body_hulls(mechanism: Mechanism, visible: Sequence[Visual]) -> dict[str, Trimesh]:
     """Return a hull of few corners of each body's parts in its own frame (mm), without the cage; none without parts."""
     from trimesh.convex import convex_hull
 

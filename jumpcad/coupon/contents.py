@@ -3,40 +3,24 @@
 import math
 import re
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from jumpcad.building.bom import mass_facts
+from jumpcad.coupon import pieces as gauge
 from jumpcad.coupon.joints import joint_pieces, seats, steps_mm
-from jumpcad.coupon.pieces import (
-    GAUGE_MM,
-    MARGIN_MM,
-    PEG_HEIGHT_MM,
-    PEGS_MM,
-    TITLE_MM,
-    Piece,
-    coupon_holes,
-    engraved,
-    gauge_rows,
-    pieces,
-    row_middles_mm,
-    series_of,
-)
 from jumpcad.coupon.readings import JOINT_KEYS, floor_breaks_n
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.files.templates import fill, render
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import MassLine
+from jumpcad.parts.part import MassLine, Piece
 from jumpcad.printing.layer_mass import mass_properties
 from jumpcad.scene.labels import labelled
 from jumpcad.scene.renderer import COMPRESSION, MM, Renderer, View, aimed, paletted, png_of
 from jumpcad.solids.stl import require_part, write_stl
-from jumpcad.transforms import Array, pose_at
+from jumpcad.transforms import Array, Trimesh, pose_at
 from jumpcad.workshop import Workshop
-
-if TYPE_CHECKING:
-    import trimesh
 
 GROUPS = {
     "joints": {
@@ -58,12 +42,12 @@ SIZE, MARGIN_PX = (620, 460), 230
 def coupon_pictures(made: Sequence[Piece], holes: HoleSizes) -> dict[str, bytes]:
     """Return the PNG files by name: a gauge, the joints, the gears."""
     first = next(piece for piece in made if piece.name.startswith("gauge_"))
-    rows = gauge_rows(holes, series_of(holes))
-    peg_x = TITLE_MM + 2.0 * MARGIN_MM + max(row.size_mm for row in rows) / 2.0 + MARGIN_MM
-    edge, peg = (first.mesh.bounds[1, 0], GAUGE_MM), (peg_x, GAUGE_MM + PEG_HEIGHT_MM / 2.0)
+    rows = gauge.gauge_rows(holes, gauge.series_of(holes))
+    peg_x = gauge.TITLE_MM + 2.0 * gauge.MARGIN_MM + max(row.size_mm for row in rows) / 2.0 + gauge.MARGIN_MM
+    edge, peg = (first.mesh.bounds[1, 0], gauge.GAUGE_MM), (peg_x, gauge.GAUGE_MM + gauge.PEG_HEIGHT_MM / 2.0)
     points = [
         (f"{row.letter}, {ROWS[row.letter]}", np.insert(peg if row.pegs else edge, 1, middle))
-        for row, middle in zip(rows, row_middles_mm(rows), strict=True)
+        for row, middle in zip(rows, gauge.row_middles_mm(rows), strict=True)
         if row.letter
     ]
     pictures = {"gauge": _picture([first.shown_mesh], [np.zeros(3)], points)}
@@ -80,7 +64,7 @@ def coupon_pictures(made: Sequence[Piece], holes: HoleSizes) -> dict[str, bytes]
     return pictures
 
 
-def _laid_out(meshes: Sequence["trimesh.Trimesh"]) -> list[Array]:
+def _laid_out(meshes: Sequence[Trimesh]) -> list[Array]:
     """Return where meshes go (3,) so that they lie in rows, none over another (mm)."""
     x = y = deep = 0.0
     places = []
@@ -93,9 +77,7 @@ def _laid_out(meshes: Sequence["trimesh.Trimesh"]) -> list[Array]:
     return places
 
 
-def _picture(
-    meshes: Sequence["trimesh.Trimesh"], places: Sequence[Array], points: Sequence[tuple[str, Array]]
-) -> bytes:
+def _picture(meshes: Sequence[Trimesh], places: Sequence[Array], points: Sequence[tuple[str, Array]]) -> bytes:
     corners = np.concatenate([mesh.bounds + place for mesh, place in zip(meshes, places, strict=True)])
     frame = np.round(MM * corners, 6)
     poses: list[Array | None] = [pose_at(np.eye(3), MM * place) for place in places]
@@ -111,8 +93,9 @@ READINGS = "readings.toml"
 
 def coupon_pieces(workshop: Workshop) -> list[Piece]:
     """Return what is printed: a gauge in every material of the robot, gears in the gears' material, the joints."""
-    holes = coupon_holes(workshop)
-    return pieces(holes, list(workshop.materials), workshop.material_name("gears")) + joint_pieces(workshop, holes)
+    holes = gauge.coupon_holes(workshop)
+    gears = workshop.material_name("gears")
+    return [*gauge.pieces(holes, list(workshop.materials), gears), *joint_pieces(workshop, holes)]
 
 
 def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
@@ -125,7 +108,7 @@ def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
 
 def coupon_files(workshop: Workshop, made: Sequence[Piece], pictures: bool = True) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of every file of the coupon."""
-    holes = coupon_holes(workshop)
+    holes = gauge.coupon_holes(workshop)
     for piece in made:
         stl = write_stl(piece.mesh)
         require_part(piece.name, stl)
@@ -153,7 +136,7 @@ def coupon_values(workshop: Workshop, holes: HoleSizes) -> dict[str, Any]:
         "screws": workshop.bought.retention == "nuts", "axle_mm": workshop.bought.axle_mm, "hole_mm": holes.axle_mm,
         "bearing": holes.bearing and holes.bearing.name,
         "bearings": [*([holes.bearing.name] if holes.bearing else []), *stronger], "seats": stronger,
-        "lying": [engraved(step) for step in steps_mm(holes.fits.lying_mm)], "readings": READINGS,
-        "floor_n": math.ceil(floor_breaks_n(workshop)), "fits": holes.fits, "press_hole": engraved(holes.fits.press_mm),
-        "pegs_mm": PEGS_MM, "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
+        "lying": [gauge.engraved(step) for step in steps_mm(holes.fits.lying_mm)], "readings": READINGS,
+        "floor_n": math.ceil(floor_breaks_n(workshop)), "fits": holes.fits, "pegs_mm": gauge.PEGS_MM,
+        "press_hole": gauge.engraved(holes.fits.press_mm), "joints": {key: fit for key, (fit, _) in JOINT_KEYS.items()},
     }  # fmt: skip

@@ -17,13 +17,13 @@ from jumpcad.coupon.pieces import (
     LETTERS_MM,
     MARGIN_MM,
     STEP_MM,
-    Piece,
     centred,
     engraved,
     engraving,
 )
 from jumpcad.dimensions import AXLE_FLOOR_MM, SOCKET_WALL_MM, TAB_MM, TRAY_MM
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Piece
 from jumpcad.robot.foot.toes import lying_hole
 from jumpcad.robot.train.drawing import ribbed_d_bore, sectors
 from jumpcad.solids.blocks import Bar, Blocks

@@ -6,21 +6,16 @@ no overhangs, so that they print without support.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 from jumpcad.drive.gears import Gear, GearPair, gear_pair
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Shape, mesh_of, shown_mesh_of
+from jumpcad.parts.part import Piece
 from jumpcad.solids.outline import Region, disc, engravable, hole, polygon, rectangle, stadium, text, union
 from jumpcad.solids.stack import Stack
 from jumpcad.strength.bearings import hub_bearings
 from jumpcad.workshop import Workshop
-
-if TYPE_CHECKING:
-    import trimesh
 
 STEP_MM = 0.05
 """Between neighbours of a series: the repeatability of holes from desktop printers (practice)."""
@@ -46,26 +41,6 @@ MODULE_MM, PINION_TEETH, WHEEL_TEETH, FACE_MM = 1.25, 15, 20, 5.0
 PINION_LETTERS_MM = 3.0
 MOST_BACKLASH_MM = 0.4
 """Around which backlash the pinions are at most: at 0.5 mm their tips are 0.18 mm thick, at 0.7 mm there is none."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A printed piece of the coupon, in printing orientation; one copy."""
-
-    name: str
-    material: str
-    shape: Shape
-    quantity: int = 1
-
-    @cached_property
-    def mesh(self) -> "trimesh.Trimesh":
-        """Mesh (mm)."""
-        return mesh_of(self.shape)
-
-    @property
-    def shown_mesh(self) -> "trimesh.Trimesh":
-        """The mesh without fine detail, for pictures (mm)."""
-        return shown_mesh_of(self.shape)
 
 
 @dataclass(frozen=True)
@@ -115,7 +90,10 @@ def pieces(holes: HoleSizes, materials: Sequence[str], gear_material: str) -> li
     made = [Piece(f"gauge_{name}", name, holes.chamfered(gauge(holes, steps, name))) for name in materials]
     running = hole(holes.running(holes.axle_mm))
     wheel = Stack.of([(0.0, FACE_MM, polygon(pair.wheel.profile_mm) - running)])
-    made.append(Piece("gear_holder", gear_material, holes.chamfered(_holder(holes, pair.centre_distance_mm))))
+    ends = (0.0, 0.0), (pair.centre_distance_mm, 0.0)
+    bar = stadium(*ends, holes.press(holes.axle_mm) + 4.0 * holes.fits.wall_mm)
+    holder = Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(holes.press(holes.axle_mm), end) for end in ends))
+    made.append(Piece("gear_holder", gear_material, holes.chamfered(holder)))
     made.append(Piece("gear_wheel", gear_material, holes.chamfered(wheel)))
     for backlash in steps.backlash_mm:
         gear = Stack.of([(0.0, FACE_MM, polygon(pinion(backlash).profile_mm) - running)])
@@ -151,14 +129,12 @@ def gauge_rows(holes: HoleSizes, steps: Series) -> list[GaugeRow]:
     return [*rows, GaugeRow("P", tuple((f"{peg:g}", peg) for peg in PEGS_MM), pegs=True)]
 
 
-def row_middles_mm(rows: Sequence[GaugeRow]) -> list[float]:
-    """Return where the middles of a gauge's rows are along y."""
+def row_middles_mm(rows: Sequence[GaugeRow]) -> Iterator[float]:
+    """Yield where the middles of a gauge's rows are along y."""
     y = -2.0 * MARGIN_MM - TITLE_MM
-    middles = []
     for row in rows:
-        middles.append(y - row.size_mm / 2.0)
+        yield y - row.size_mm / 2.0
         y -= row.size_mm + LABEL_GAP_MM + LETTERS_MM + MARGIN_MM
-    return middles
 
 
 def gauge(holes: HoleSizes, steps: Series, title: str) -> Stack:
@@ -184,13 +160,6 @@ def gauge(holes: HoleSizes, steps: Series, title: str) -> Stack:
     plate = rectangle(size, (size[0] / 2.0, y / 2.0), MARGIN_MM)
     solid = Stack.of([(0.0, GAUGE_MM, plate - union(cut)), (0.0, GAUGE_MM + PEG_HEIGHT_MM, union(pegs))])
     return solid.minus([engraving(GAUGE_MM, union(letters))])
-
-
-def _holder(holes: HoleSizes, centre_distance_mm: float) -> Stack:
-    """Return the bar with press fits for two axles at a centre distance."""
-    ends = (0.0, 0.0), (centre_distance_mm, 0.0)
-    bar = stadium(*ends, holes.press(holes.axle_mm) + 4.0 * holes.fits.wall_mm)
-    return Stack.of([(0.0, HOLDER_MM, bar)]).through(*(hole(holes.press(holes.axle_mm), end) for end in ends))
 
 
 def _offsets(low_mm: float, high_mm: float) -> tuple[float, ...]:

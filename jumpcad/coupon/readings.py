@@ -51,11 +51,6 @@ class GaugeReadings(TomlTable):
     bearing_press_mm: float | None = None
     pegs_mm: Annotated[tuple[float, ...], Field(strict=False)] = ()
 
-    @property
-    def peg_growth_mm(self) -> float:
-        """Mean diameter of the printed pegs less that of the drawn ones."""
-        return sum(self.pegs_mm) / len(self.pegs_mm) - sum(PEGS_MM) / len(PEGS_MM)
-
 
 class GearReadings(TomlTable):
     """Reading of the gears: the backlash engraved on the tightest pinion that turns freely all round."""
@@ -82,11 +77,6 @@ class JointReadings(TomlTable):
     tray_sliding_mm: float | None = None
     seat_press_mm: float | None = None
     floor_n: Annotated[float | None, Field(gt=0, le=1e4)] = None
-
-    @property
-    def sliding_mm(self) -> tuple[float | None, ...]:
-        """The readings of running fits."""
-        return self.dog_sliding_mm, self.socket_sliding_mm, self.tray_sliding_mm
 
 
 class Readings(Record):
@@ -156,7 +146,8 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     """Return the fits that follow from the readings, by key."""
     tried, joints = list(readings.gauge.values()), readings.joints
     press = _press(readings)
-    sliding = _given([*(gauge.axle_sliding_mm for gauge in tried), *joints.sliding_mm])
+    running = (getattr(joints, key) for key, (fit, _) in JOINT_KEYS.items() if fit == "sliding_mm")
+    sliding = _given([*(gauge.axle_sliding_mm for gauge in tried), *running])
     loose = _given(gauge.axle_loose_mm for gauge in tried)
     own = {key: getattr(joints, key) for key in ("m2_tap_mm", "rib_mm", "lying_mm")}
     fits: dict[str, float] = {key: value for key, value in own.items() if value is not None}
@@ -174,7 +165,8 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     if readings.gears.turns_freely_mm is not None:
         fits["backlash_circumferential_mm"] = readings.gears.turns_freely_mm
     elif teeth.pegs_mm:
-        lost = 2.0 * teeth.peg_growth_mm / math.cos(PRESSURE_ANGLE_RAD)
+        growth = sum(teeth.pegs_mm) / len(teeth.pegs_mm) - sum(PEGS_MM) / len(PEGS_MM)
+        lost = 2.0 * growth / math.cos(PRESSURE_ANGLE_RAD)
         fits["backlash_circumferential_mm"] = max(LEAST_PLAY_MM + lost, 0.0)
     return {key: round(value, 3) for key, value in fits.items()}
 

@@ -174,46 +174,16 @@ class Cam:
         return self.geometry.law
 
     @property
-    def lever_length_mm(self) -> float:
-        """Hub to roller centre (mm)."""
-        return self.geometry.lever_mm
-
-    @property
-    def lever_start_rad(self) -> float:
-        """Direction of the lever at rest, counter-clockwise from x (rad)."""
-        return self.geometry.lever_start_rad
-
-    @property
-    def cam_axis_mm(self) -> Array:
-        """The cam's axis (2,) from the hub (mm)."""
-        return self.geometry.axis_mm
-
-    @property
-    def roller_radius_mm(self) -> float:
-        """Radius of the roller on the lever (mm)."""
-        return self.geometry.roller_radius_mm
-
-    @property
-    def peak_torque_nm(self) -> float:
-        """Largest torque that the springs need at the cam, without friction (N·m)."""
-        return self.law.peak_torque_nm
-
-    @property
-    def free_rad(self) -> float:
-        """Cam angle at which the roller has left the corner and falls."""
-        return self.geometry.free_rad
-
-    @property
     def roll_over_rad(self) -> float:
         """Cam angle from the end of the lift until the roller falls past the corner with the usual clearance."""
-        return self.free_rad - self.law.lift_rad
+        return self.geometry.free_rad - self.law.lift_rad
 
     def wind_rad(self, cam_rad: npt.ArrayLike) -> Array:
         """Return the leg angle (n,) at cam angles (n,) of any turn: lift, over the corner, then at rest."""
         phi = np.mod(np.asarray(cam_rad, dtype=float), 2 * math.pi)
         lift = self.law.wind_rad(np.minimum(phi, self.law.lift_rad))
         tip = self.geometry.in_body(self.geometry.tip_mm, phi)
-        wind, cosine = self.geometry.wind_around_rad(tip, self.roller_radius_mm)
+        wind, cosine = self.geometry.wind_around_rad(tip, self.geometry.roller_radius_mm)
         over = np.where(cosine < 1, np.clip(wind, 0.0, self.law.compression_rad), 0.0)
         return np.where(phi <= self.law.lift_rad, lift, over)
 

@@ -15,10 +15,8 @@ class CamLaw:
 
     Without the ramp the leg's speed per cam angle would start at infinity, and the pressure angle at 90°.
 
-    - `compression_rad`: Leg angle at the end of the lift.
-    - `stiffness_nm_per_rad`: Stiffness of both springs together.
-    - `lift_rad`, `ramp_rad`: Cam angle of the whole lift, and of the ramp at its beginning.
-    - `preload_rad`: How far the springs are loaded at the beginning of the lift.
+    Stiffness is that of both springs together, `lift_rad` the cam angle of the whole lift, at the end of which the leg
+    is at `compression_rad`; `preload_rad` is how far the springs are loaded at its beginning.
     """
 
     compression_rad: float

@@ -187,5 +187,4 @@ def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: 
     highest = np.minimum(
         np.minimum(limits.axis_max_rad, limits.lever_loaded_max_rad - law.compression_rad - lead), math.pi - above
     )
-    lowest = np.maximum(limits.axis_min_rad, above)
-    return highest, lowest
+    return highest, np.maximum(limits.axis_min_rad, above)

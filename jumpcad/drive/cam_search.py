@@ -111,8 +111,7 @@ class _Shapes:
                 shape = self._smallest(start) if self._fits(start) else start
             if self._fits(shape):
                 return shape, True
-        nearest = max(starts, key=lambda logs: float(self._at(logs)[2].min()))
-        return nearest, False
+        return max(starts, key=lambda logs: float(self._at(logs)[2].min())), False
 
     def around(self, logs: Array) -> Array:
         """Return the shapes (n, 3) of the grid around one within the bounds, the nearest first."""

@@ -22,9 +22,8 @@ SEARCHED_RAD = 0.5
 class Corner:
     """The roller's path over the corner, at n evenly spaced cam angles while the two touch.
 
-    - `cam_rad`, `wind_rad`: Cam angle and leg angle (n,).
-    - `slope`, `bend`: First and second derivative (n,) of the leg angle by the cam angle.
-    - `arm_mm`: Lever arm (n,) of the contact force about the leg's pivot.
+    `slope` and `bend` are the derivatives of the leg's angle `wind_rad` by the cam's, `arm_mm` the contact force's
+    lever arms about the leg's pivot.
     """
 
     cam_rad: Array

@@ -59,14 +59,9 @@ class Dog:
         return (2.0 * math.pi / JAWS - self.play_rad) / 2.0
 
     @property
-    def aside_rad(self) -> float:
-        """How far the second jaw stands from opposite the first: twice this is more than the play."""
-        return self.play_rad / 2.0 + ASIDE_MORE_RAD
-
-    @property
     def cam_jaws_rad(self) -> list[tuple[float, float]]:
         """Where the cam's jaws begin and end, counter-clockwise from x, at cam angle 0."""
-        middles = (0.0, math.pi + self.aside_rad)
+        middles = (0.0, math.pi + (self.play_rad / 2.0 + ASIDE_MORE_RAD))  # twice as far aside as the play, and more
         return [(middle - self.jaw_rad / 2.0, middle + self.jaw_rad / 2.0) for middle in middles]
 
     @property
@@ -110,12 +105,8 @@ def largest_torques_nm(
 ) -> tuple[float, float]:  # fmt: skip
     """Return the largest torque between cam and gear, and between gear and rotor (N·m, at the cam).
 
-    - `masses_kg_m2`: Moments of inertia of cam, gear and rotor.
-    - `speed_rad_s`, `motor_rad_s`: Speed of the cam when it reaches the gear, and of the motor, which turns the gear
-      and keeps running.
-    - `backlash_rad`: Angle by which the gear can run ahead of the rotor.
-    - `stiffness_nm_per_rad`: Contact stiffness of each pair.
-    - `rebound`: Coefficient of restitution of each pair.
+    Masses are moments of inertia of cam, gear and rotor. The cam has its speed when it reaches the gear, which the
+    motor turns on; the gear can run ahead of the rotor by the backlash. Stiffness and restitution are of each pair.
     """
     cam_kg_m2, gear_kg_m2, rotor_kg_m2 = masses_kg_m2
     k, share = stiffness_nm_per_rad, 2.0 * damping_share(rebound)

@@ -48,10 +48,8 @@ def least_shift(teeth: int) -> float:
 class Gear:
     """One spur gear; the profile has a tooth centred on +x.
 
-    - `shift`: Profile shift in modules.
-    - `thinning_mm`: By how much its teeth are thinner than a backlash-free pair's, on the pitch circle (its share of
-      the backlash).
-    - `tip_cut_mm`: Taken off the tip radius, where shifts would reduce the clearance to the mating root.
+    `shift` is in modules; `thinning_mm` by how much its teeth are thinner than a backlash-free pair's, on the pitch
+    circle; `tip_cut_mm` is taken off the tip radius, where shifts would reduce the clearance to the mating root.
     """
 
     teeth: int
@@ -87,11 +85,6 @@ class Gear:
     def root_radius_mm(self) -> float:
         """Radius of the root circle (mm)."""
         return self.pitch_radius_mm - self.module_mm * (DEDENDUM - self.shift)
-
-    @property
-    def pitch_thickness_mm(self) -> float:
-        """Tooth thickness along the pitch circle (mm)."""
-        return self.module_mm * (math.pi / 2 + 2 * self.shift * _TAN) - self.thinning_mm
 
     @property
     def form_radius_mm(self) -> float:
@@ -176,16 +169,6 @@ class GearPair:
         return self.wheel.teeth / self.pinion.teeth
 
     @property
-    def module_mm(self) -> float:
-        """Common module (mm)."""
-        return self.pinion.module_mm
-
-    @property
-    def face_width_mm(self) -> float:
-        """Common width (mm)."""
-        return self.pinion.face_width_mm
-
-    @property
     def working_angle_rad(self) -> float:
         """Pressure angle at the working centre distance (rad)."""
         return math.acos((self.pinion.base_radius_mm + self.wheel.base_radius_mm) / self.centre_distance_mm)
@@ -199,7 +182,7 @@ class GearPair:
     def contact_ratio(self) -> float:
         """Pairs of teeth in contact on average."""
         path = sum(_tip_roll_mm(gear) for gear in (self.pinion, self.wheel)) - self._line_mm
-        return path / (math.pi * self.module_mm * _COS)
+        return path / (math.pi * self.pinion.module_mm * _COS)
 
     @property
     def involute_margin_mm(self) -> float:

@@ -5,21 +5,12 @@ It is a DC machine: speed falls and current rises in proportion to its torque.
 
 import math
 from dataclasses import dataclass, replace
-from typing import Self
+from typing import Literal, Self
 
 import numpy as np
 
+from jumpcad import dimensions
 from jumpcad.catalogue import Motor
-from jumpcad.dimensions import (
-    CAP_EAR_MM,
-    CAP_HEAD_MM,
-    CLEAR_MM,
-    MOTOR_CAP_MM,
-    MOTOR_RIM_MM,
-    SOCKET_PLAY_MM,
-    SOCKET_WALL_MM,
-    SPACER_RADIUS_MM,
-)
 from jumpcad.drive.cam_law import CamLaw
 from jumpcad.electronics.supply import Supply
 
@@ -73,7 +64,7 @@ class TrainLimits:
     motor_distance_min_mm: float = 12.0
     cam_room_mm: float = 0.0
     idler_distance_min_mm: float = 0.0
-    axle_mm: float = SPACER_RADIUS_MM + CLEAR_MM
+    axle_mm: float = dimensions.SPACER_RADIUS_MM + dimensions.CLEAR_MM
     cam_speed_max_rad_s: float = 4.6
     seconds_per_gram: float = 2.0
     supply: Supply | None = None
@@ -83,17 +74,10 @@ class TrainLimits:
         """Return the share of the motor's work that reaches the springs through a number of gear pairs."""
         return self.cam_efficiency * self.pair_efficiency**pairs
 
-    def driven(self, motor: Motor) -> Motor:
-        """Return a motor as it behaves at the supply's nominal voltage under load."""
-        return self.supply.driven(motor, self.supply.nominal_v, self.blocked_nm) if self.supply else motor
-
-    def weakest(self, motor: Motor) -> Motor:
-        """Return a motor as it behaves with an empty battery."""
-        return self.supply.driven(motor, self.supply.empty_v, self.blocked_nm) if self.supply else motor
-
-    def fastest(self, motor: Motor) -> Motor:
-        """Return a motor as it behaves with a full battery."""
-        return self.supply.driven(motor, self.supply.full_v, self.blocked_nm) if self.supply else motor
+    def driven(self, motor: Motor, battery: Literal["empty", "nominal", "full"] = "nominal") -> Motor:
+        """Return a motor as it behaves under load at a voltage of the supply."""
+        volts = getattr(self.supply, f"{battery}_v", 0.0)
+        return self.supply.driven(motor, volts, self.blocked_nm) if self.supply else motor
 
     def beside(self, motor: Motor) -> Self:
         """Return the limits with those that a motor's shaft and socket set."""
@@ -128,7 +112,7 @@ def allowed_nm(motor: Motor, limits: TrainLimits) -> float:
     and a share of the stall torque on an empty battery, so that it can always load the springs.
     """
     allowed = min(limits.stall_share * motor.stall_torque_nm, limits.torque_max_nm)
-    return max(LEAST_NM, min(allowed, EMPTY_SHARE * limits.weakest(motor).stall_torque_nm))
+    return max(LEAST_NM, min(allowed, EMPTY_SHARE * limits.driven(motor, "empty").stall_torque_nm))
 
 
 def free_speed_rad_s(motor: Motor) -> float:
@@ -139,7 +123,7 @@ def free_speed_rad_s(motor: Motor) -> float:
 def least_ratio(law: CamLaw, motor: Motor, limits: TrainLimits, pairs: int) -> float:
     """Return the least motor turns per cam turn for torque and speed, with a number of gear pairs."""
     for_torque = law.peak_torque_nm / limits.efficiency(pairs) / allowed_nm(motor, limits)
-    return max(for_torque, free_speed_rad_s(limits.fastest(motor)) / limits.cam_speed_max_rad_s)
+    return max(for_torque, free_speed_rad_s(limits.driven(motor, "full")) / limits.cam_speed_max_rad_s)
 
 
 def winding_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> float:
@@ -178,20 +162,20 @@ FACETS_MM = 0.04
 
 def cap_ear_mm(wall_min_mm: float) -> float:
     """Return how far the ears for the cap's screws reach beyond the socket, with walls that a printer can print."""
-    return max(CAP_EAR_MM, CAP_HEAD_MM + 2.0 * wall_min_mm + FACETS_MM)
+    return max(dimensions.CAP_EAR_MM, dimensions.CAP_HEAD_MM + 2.0 * wall_min_mm + FACETS_MM)
 
 
-def socket_half_mm(motor: Motor, ear_mm: float = CAP_EAR_MM) -> tuple[float, float]:
+def socket_half_mm(motor: Motor, ear_mm: float = dimensions.CAP_EAR_MM) -> tuple[float, float]:
     """Return the half sizes of a motor's socket: along its width, and along its height with the cap's ears."""
-    wall = SOCKET_PLAY_MM + SOCKET_WALL_MM
+    wall = dimensions.SOCKET_PLAY_MM + dimensions.SOCKET_WALL_MM
     return motor.width_mm / 2.0 + wall, motor.height_mm / 2.0 + wall + ear_mm
 
 
 def front_length_mm(motor: Motor) -> float:
     """Return how far the cap, or a boss that is longer, reaches from the motor's front."""
-    return max(MOTOR_CAP_MM, motor.boss_length_mm)
+    return max(dimensions.MOTOR_CAP_MM, motor.boss_length_mm)
 
 
 def window_mm(motor: Motor) -> tuple[float, float]:
     """Return width and height of the window in the socket's floor, through which terminals and wires pass."""
-    return motor.width_mm - 2.0 * MOTOR_RIM_MM, motor.height_mm - 2.0 * MOTOR_RIM_MM
+    return motor.width_mm - 2.0 * dimensions.MOTOR_RIM_MM, motor.height_mm - 2.0 * dimensions.MOTOR_RIM_MM

@@ -12,7 +12,7 @@ import numpy as np
 
 from jumpcad.drive.corner import clear_window_rad, roll_over
 from jumpcad.drive.dog import PLAY_MORE_RAD
-from jumpcad.drive.rolling import ReleaseParts, Rolled, roll
+from jumpcad.drive.rolling import ReleaseParts, roll
 from jumpcad.drive.synthesis import Drive
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.model import RollerOff, Spring
@@ -130,10 +130,12 @@ def release(drive: Drive, moving: MovingParts, workshop: Workshop) -> Release:
     kick = max(rolled.kick_nm for rolled in printed + rounded) / train.ratio
     push_off = moving.leg.push_off_s(moving.spring, geometry.overshoot_rad)
     allowed, window = _kick_limit_nm(drive, workshop), clear_window_rad(geometry)
+    kept_share = first.kept_j / moving.spring.energy_j  # the energy that bends the lever counts as lost
     return Release(
-        off=_roller_off(first, moving.spring), energy_ratio=ratios[0], rounded_ratio=ratios[1],
+        off=RollerOff(round(-first.wind_rad, 9), round(-first.wind_rad_s, 6), round(kept_share, 9)),
+        energy_ratio=ratios[0], rounded_ratio=ratios[1], kick_nm=kick, kick_limit_nm=allowed,
         bending_ratio=first.held_j / moving.spring.stored_j(-law.compression_rad),
-        blow_nm=max(rolled.blow_nm for rolled in printed + rounded), kick_nm=kick, kick_limit_nm=allowed,
+        blow_nm=max(rolled.blow_nm for rolled in printed + rounded),
         gear_ratio=train.ratio, push_off_s=push_off, worn_rad=law.lift_rad - float(worn.cam_rad[0]),
         free_play_rad=drive.dog.play_rad, roll_over_rad=drive.cam.roll_over_rad, window_rad=window, parts=cases,
         findings=_findings(drive, workshop, (min(ratios), kept), kick, allowed, window[1], push_off),
@@ -145,7 +147,7 @@ def _parts(
     backlash_deg: float, speed_share: float,
 ) -> ReleaseParts:  # fmt: skip
     """Return the parts of a release with one motor, reflected to the cam; contact stiffness as at the lift's end."""
-    train, lever_m = drive.train, drive.cam.lever_length_mm / 1000.0
+    train, lever_m = drive.train, drive.cam.geometry.lever_mm / 1000.0
     return ReleaseParts(
         spring=moving.spring, leg=moving.leg, cam_kg_m2=moving.cam_kg_m2,
         gear_kg_m2=moving.cam_gear_kg_m2 + moving.pinion_kg_m2 * train.ratio**2,
@@ -156,12 +158,6 @@ def _parts(
         lever_nm_per_rad=moving.lever_n_per_m * lever_m**2, contact_nm_per_rad=contact_nm_per_rad,
         roller_kg_m2=moving.roller_kg * lever_m**2,
     )  # fmt: skip
-
-
-def _roller_off(rolled: Rolled, spring: Spring) -> RollerOff:
-    """Return where the jump starts; the energy that bends the lever counts as lost."""
-    ratio = rolled.kept_j / spring.energy_j
-    return RollerOff(round(-rolled.wind_rad, 9), round(-rolled.wind_rad_s, 6), round(ratio, 9))
 
 
 def _kick_limit_nm(drive: Drive, workshop: Workshop) -> float:

@@ -174,11 +174,6 @@ class TorsionSpring:
         return self.arms.mean_mm + self.arms.wire_mm
 
     @property
-    def pin_radius_mm(self) -> float:
-        """From the axle to the pins that hold the arms (mm)."""
-        return self.arms.pin_radius_mm
-
-    @property
     def arm_length_mm(self) -> float:
         """Of each arm, from the coil to its end a little beyond the pin (mm)."""
         return self.arms.lever_mm + ARM_BEYOND_MM

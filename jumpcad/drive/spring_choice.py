@@ -151,11 +151,7 @@ DIAMETER_DIGITS = 6
 
 
 def synthesise_spring(on_leg: Spring, leg_pin_rad: float, wire: Wire, limits: SpringLimits) -> TorsionSpring:
-    """Find the pair of springs with the smallest outer diameter whose arms touch their pins.
-
-    - `on_leg`: Both springs together.
-    - `leg_pin_rad`: Direction of the leg's pin in the rest pose.
-    """
+    """Find the pair of springs with the smallest outer diameter whose arms touch their pins, the leg's as at rest."""
     for length in limits.body_lengths_max_mm:
         smallest = [
             (arms, tensile)
@@ -185,7 +181,9 @@ def _smallest_arms(
 ) -> Arms | None:
     """Return the smallest coil of one wire that strength, length and bushing allow; None if there is none."""
     loaded = (on_leg.wind_rad + on_leg.preload_rad) / FULL_TURN_RAD
-    index = _least_index(limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d))
+    factor = limits.stress_share * tensile_mpa / plain_stress_mpa(500.0 * on_leg.peak_torque_nm, d)
+    # the smallest index D/d whose inner-fibre factor is at most what the strength allows
+    index = math.inf if factor <= 1 else max(INDEX_MIN, (0.75 * factor + 0.07) / (factor - 1))
     product = _product_mm(d, on_leg, wire)
     loaded_mean = limits.mandrel_min_mm + limits.mandrel_clearance_mm + d
     longest = length_max_mm / d - 1 - loaded
@@ -244,10 +242,3 @@ def _finished(
     """Return the spring of a coil, its turns from the stiffness."""
     turns = _product_mm(arms.wire_mm, on_leg, wire) / arms.mean_mm - arms.arm_turns
     return torsion_spring(arms, turns, on_leg, tensile_mpa, wire, limits, pins_rad)
-
-
-def _least_index(factor: float) -> float:
-    """Return the smallest index D/d whose inner-fibre factor is at most what the strength allows."""
-    if factor <= 1:
-        return math.inf
-    return max(INDEX_MIN, (0.75 * factor + 0.07) / (factor - 1))

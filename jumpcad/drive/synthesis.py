@@ -116,12 +116,12 @@ def _spring(design: Design, limits: DriveLimits, catalogue: Catalogue) -> Torsio
     if stock is None:
         return synthesise_spring(on_leg, leg_pin, catalogue.wire, limits.spring)
     spring = fitted_spring(stock, on_leg, leg_pin, catalogue.wire, limits.spring)
-    reach = LEG_SHARE * design.l2_mm
-    if spring.pin_radius_mm > reach:
+    needed, reach = spring.arms.pin_radius_mm, LEG_SHARE * design.l2_mm
+    if needed > reach:
         raise CannotBuildError(
-            f"bought.spring = {stock.name!r}: its arms need the leg's pin {spring.pin_radius_mm:.1f} mm from the axle; "
+            f"bought.spring = {stock.name!r}: its arms need the leg's pin {needed:.1f} mm from the axle; "
             f"in a leg of {design.l2_mm:.1f} mm at most {reach:.1f} mm is possible",
-            "spring_pin", reach - spring.pin_radius_mm, ways=("choose a smaller spring", *higher("carrying_link_mm")),
+            "spring_pin", reach - needed, ways=("choose a smaller spring", *higher("carrying_link_mm")),
         )  # fmt: skip
     return replace(spring, findings=(*spring.findings, rate_finding(design, stock)))
 
@@ -167,7 +167,7 @@ def _dog(cam: Cam, limits: DriveLimits) -> Dog:
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
     """Return the limits of motor and gears beside a cam."""
-    room = math.hypot(*cam.cam_axis_mm) - limits.axle_radius_mm - limits.gap_mm
+    room = math.hypot(*cam.geometry.axis_mm) - limits.axle_radius_mm - limits.gap_mm
     around = cam.outer_radius_mm + limits.gap_mm
     _, window = clear_window_rad(cam.geometry)
     play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))

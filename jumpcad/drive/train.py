@@ -4,7 +4,7 @@ Torques in N·m, lengths in mm.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from jumpcad.catalogue import Motor
@@ -116,7 +116,7 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     ratio = math.prod(pair.ratio for pair in stages)
     efficiency = limits.efficiency(len(stages))
     peak = law.peak_torque_nm / (ratio * efficiency)
-    cam_speed = free_speed_rad_s(limits.fastest(motor)) / ratio
+    cam_speed = free_speed_rad_s(limits.driven(motor, "full")) / ratio
     torques = [law.peak_torque_nm / limits.cam_efficiency]  # on the wheels, from the cam to the motor
     for pair in stages[:0:-1]:
         torques.append(torques[-1] / (pair.ratio * limits.pair_efficiency))
@@ -132,42 +132,39 @@ def finished_train(law: CamLaw, motor: Motor, stages: tuple[GearPair, ...], limi
     )  # fmt: skip
 
 
-def _motor_findings(motor: Motor, cam_speed_rad_s: float, torque_nm: float, limits: TrainLimits) -> list[Finding]:
+def _motor_findings(motor: Motor, cam_speed_rad_s: float, torque_nm: float, limits: TrainLimits) -> Iterator[Finding]:
     allowed, (unit, factor) = allowed_nm(motor, limits), SHOWN_AS["rad/s"]
-    return [
-        at_most(
-            "motor_torque", torque_nm, allowed, "N·m",
-            f"{motor.name} gives {1000 * torque_nm:.1f} mN·m at most; {1000 * allowed:.1f} mN·m are allowed",
-            "a stronger motor, or a larger ratio",
-        ),
-        at_most(
-            "cam_speed", cam_speed_rad_s, limits.cam_speed_max_rad_s, "rad/s",
-            f"the unloaded cam turns at {factor * cam_speed_rad_s:.0f} {unit}; "
-            f"{factor * limits.cam_speed_max_rad_s:.0f} {unit} are allowed",
-            "a slower motor, or a larger ratio",
-        ),
-    ]  # fmt: skip
+    yield at_most(
+        "motor_torque", torque_nm, allowed, "N·m",
+        f"{motor.name} gives {1000 * torque_nm:.1f} mN·m at most; {1000 * allowed:.1f} mN·m are allowed",
+        "a stronger motor, or a larger ratio",
+    )  # fmt: skip
+    yield at_most(
+        "cam_speed", cam_speed_rad_s, limits.cam_speed_max_rad_s, "rad/s",
+        f"the unloaded cam turns at {factor * cam_speed_rad_s:.0f} {unit}; "
+        f"{factor * limits.cam_speed_max_rad_s:.0f} {unit} are allowed",
+        "a slower motor, or a larger ratio",
+    )  # fmt: skip
 
 
-def _gear_findings(stages: tuple[GearPair, ...], wheel_torques_nm: list[float], limits: TrainLimits) -> list[Finding]:
-    """Return strength and mesh of every pair, from the cam to the motor, and whether the cam's gear fits."""
-    findings = []
+def _gear_findings(
+    stages: tuple[GearPair, ...], wheel_torques_nm: list[float], limits: TrainLimits
+) -> Iterator[Finding]:
+    """Yield strength and mesh of every pair, from the cam to the motor, and whether the cam's gear fits."""
     for number, pair, torque in reversed([*zip(range(1, len(stages) + 1), stages, wheel_torques_nm, strict=True)]):
         stress = pair.pinion.lewis_stress_mpa(torque / pair.ratio)
-        findings += [
-            at_most(
-                f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
-                f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:.1f} MPa "
-                "(Lewis, load at one tip)",
-                "wider gears, or a larger module",
-            ),
-            limit(
-                f"gear_mesh_{number}", min(pair.involute_margin_mm, pair.contact_ratio - CONTACT_RATIO_MIN), "mm",
-                f"pair {number} has a contact ratio of {pair.contact_ratio:.2f}, of {CONTACT_RATIO_MIN:g} at least; "
-                f"contact ends {pair.involute_margin_mm:.2f} mm before the fillets, of 0 mm at least",
-                "more teeth",
-            ),
-        ]  # fmt: skip
+        yield at_most(
+            f"gear_strength_{number}", stress, limits.stress_mpa, "MPa",
+            f"bending of teeth, pair {number}: {stress:.1f} of {limits.stress_mpa:.1f} MPa "
+            "(Lewis, load at one tip)",
+            "wider gears, or a larger module",
+        )  # fmt: skip
+        yield limit(
+            f"gear_mesh_{number}", min(pair.involute_margin_mm, pair.contact_ratio - CONTACT_RATIO_MIN), "mm",
+            f"pair {number} has a contact ratio of {pair.contact_ratio:.2f}, of {CONTACT_RATIO_MIN:g} at least; "
+            f"contact ends {pair.involute_margin_mm:.2f} mm before the fillets, of 0 mm at least",
+            "more teeth",
+        )  # fmt: skip
     tip, fits = stages[-1].wheel.tip_radius_mm, limits.cam_gear_tip_max_mm
     message = f"the cam gear's tip radius is {tip:.1f} mm; {fits:.1f} mm fit"
-    return [*findings, at_most("cam_gear_room", tip, fits, "mm", message, "a stronger motor, or another pair of gears")]
+    yield at_most("cam_gear_room", tip, fits, "mm", message, "a stronger motor, or another pair of gears")

@@ -18,7 +18,7 @@ from trimesh.visual.material import PBRMaterial
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.raster import with_normals
-from jumpcad.scene.visuals import Colour, Visual, visuals
+from jumpcad.scene.visuals import Colour, visuals
 from jumpcad.transforms import Array
 
 Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
@@ -42,7 +42,12 @@ def write_glb(robot: Robot) -> bytes:
         scene.graph.update(frame_name(name), FRAME, matrix=pose)
     for shape in visuals(robot):
         if shape.mesh_name not in scene.geometry:
-            scene.geometry[shape.mesh_name] = _in_metres(shape)
+            vertices, normals, faces = with_normals(shape.mesh)
+            material = PBRMaterial(name=shape.mesh_name, metallicFactor=0.0, roughnessFactor=ROUGHNESS)
+            visual = trimesh.visual.TextureVisuals(material=material)
+            scene.geometry[shape.mesh_name] = trimesh.Trimesh(
+                vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False
+            )
         scene.graph.update(shape.name, frame_name(shape.body), matrix=shape.T_body_mesh, geometry=shape.mesh_name)
     colours = {shape.mesh_name: shape.colour for shape in visuals(robot)}
     return bytes(scene.export(file_type="glb", tree_postprocessor=lambda tree: _finish(tree, colours)))
@@ -74,14 +79,6 @@ def frame_name(body: str) -> str:
     return f"{body}_frame"
 
 
-def _in_metres(shape: Visual) -> trimesh.Trimesh:
-    """Return a mesh with normals and material (m)."""
-    vertices, normals, faces = with_normals(shape.mesh)
-    material = PBRMaterial(name=shape.mesh_name, metallicFactor=0.0, roughnessFactor=ROUGHNESS)
-    visual = trimesh.visual.TextureVisuals(material=material)
-    return trimesh.Trimesh(vertices * 0.001, faces, vertex_normals=normals, visual=visual, process=False)
-
-
 ANIMATIONS = {"jump": 1.0, "jump, a tenth of the speed": 10.0}
 """Names, and each duration over the real one."""
 JSON, BINARY = 0x4E4F534A, 0x004E4942
@@ -110,8 +107,10 @@ def animated(glb: bytes, motion: BodyMotion) -> bytes:
     moving = {body: names.index(f"{body}_frame") for body in motion.position_m}
     paths = []
     for body, node in moving.items():
-        places = _rounded(motion.position_m[body])
-        turns = _rounded(_continuous(motion.quaternion_xyzw[body]))
+        places, turns = _rounded(motion.position_m[body]), motion.quaternion_xyzw[body]
+        # without jumps of sign (q and -q are one rotation): viewers interpolate linearly
+        signs = np.cumprod(np.where((turns[1:] * turns[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
+        turns = _rounded(turns * np.append(1.0, signs)[:, None])
         _split_matrix(tree["nodes"][node])
         for path, kind, values in (("translation", "VEC3", places), ("rotation", "VEC4", turns)):
             binary, accessor = _appended(tree, binary, values, kind)
@@ -126,12 +125,6 @@ def animated(glb: bytes, motion: BodyMotion) -> bytes:
         tree["animations"].append({"name": name, "samplers": samplers, "channels": channels})
     tree["buffers"][0]["byteLength"] = len(binary)
     return _packed(tree, binary)
-
-
-def _continuous(quaternions: Array) -> Array:
-    """Return quaternions (n, 4) without jumps of sign (q and -q are one rotation): viewers interpolate linearly."""
-    signs = np.cumprod(np.where((quaternions[1:] * quaternions[:-1]).sum(axis=1) < 0.0, -1.0, 1.0))
-    return np.asarray(quaternions * np.append(1.0, signs)[:, None])
 
 
 def _rounded(values: Array) -> Array:

@@ -81,18 +81,8 @@ def filled(
 ) -> str:
     """Return the document of a robot: a five-bar stands at rest, any other has its root at the origin, held in x-z.
 
-    Parameters
-    ----------
-    mechanism, settings
-        The robot, and friction, damping and time step.
-    number
-        Writes values.
-    shapes
-        Elements inside each body: tags and attributes.
-    keys
-        Key frames: poses and velocities, and other attributes.
-    more
-        What else the template says.
+    `number` writes values; `shapes` are tags and attributes of the elements inside each body, `keys` the key frames:
+    poses and velocities, and other attributes; `more` is what else the template says.
     """
     rest = body_poses(mechanism)[BODY] if isinstance(mechanism, Mechanism) else np.eye(4)
     order = list(_numbered(mechanism, mechanism.root))

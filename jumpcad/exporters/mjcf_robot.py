@@ -8,11 +8,11 @@ The motor `cam` holds the loaded leg against a limit and releases it; the equali
 that is switched off. MuJoCo's key frames do not store whether a constraint is active, so `wound` uses the motor.
 """
 
+import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
-from jumpcad.collision.hulls import Capsule, body_hulls, cage_capsules
+from jumpcad.collision.hulls import body_hulls, cage_capsules
 from jumpcad.dimensions import MESH_FOLDER, MESHES_FROM_BESIDE
 from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBSTEPS, Attributes, filled, springs, stiff
 from jumpcad.exporters.steered import WHEEL, on_its_wheel, steered, wheel_of
@@ -25,9 +25,7 @@ from jumpcad.robot.steering.limits import steers
 from jumpcad.scene.visuals import Colour, Visual, visuals
 from jumpcad.settings import Settings, coefficients
 from jumpcad.solids.stl import write_stl
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Trimesh
 
 STEP_S = 0.00025
 """Time step: twice that of the project's own runs; templates jump as far within 0.2 %, at 1 ms up to 12 % less far."""
@@ -122,8 +120,10 @@ def _shapes(
     if has_hull:
         yield collides(body.name, type="mesh", mesh=f"{body.name}{HULL}")
     for number, rod in enumerate(cage_capsules(mechanism) if body.name == BODY else (), start=1):
-        yield collides(f"cage_{number}", type="capsule", fromto=(*rod.start_m, *rod.end_m), size=rod.radius_m,
-                       **_softness(rod, mechanism.mass_kg))  # fmt: skip
+        along, gives = (*rod.start_m, *rod.end_m), math.isfinite(rod.n_per_m)
+        time_s = math.sqrt(mechanism.mass_kg / rod.n_per_m) / ROD_DAMPING  # √(m/k)/ζ of the robot on a rod that gives
+        soft: Attributes = {"solref": (time_s, ROD_DAMPING)} if gives else {}
+        yield collides(f"cage_{number}", type="capsule", fromto=along, size=rod.radius_m, **soft)
     for one in body.contacts:
         rolls: Attributes = {"type": "sphere", "pos": one.centre_m, "size": one.radius_m}
         if body.name == WHEEL and (place := wheel_of(mechanism)):  # round across its rim too
@@ -133,7 +133,7 @@ def _shapes(
         yield "site", {"name": one.name, "pos": one.centre_m, "size": TOUCH * one.radius_m}
 
 
-def _assets(visible: Sequence[Visual], hulls: "Mapping[str, trimesh.Trimesh]") -> Iterator[Attributes]:
+def _assets(visible: Sequence[Visual], hulls: Mapping[str, Trimesh]) -> Iterator[Attributes]:
     """Yield the meshes, and the hulls: by their corners where nothing is seen."""
     for name in dict.fromkeys(shape.mesh_name for shape in visible):
         yield {"name": name, "file": f"{name}.stl"} | MILLIMETRES
@@ -143,13 +143,6 @@ def _assets(visible: Sequence[Visual], hulls: "Mapping[str, trimesh.Trimesh]") -
         yield {"name": f"{name}{HULL}"} | (file if visible else corners)
 
 
-def _softness(link: Capsule, mass_kg: float) -> Attributes:
-    """Return MuJoCo's `solref` of a rod that gives: the time constant √(m/k)/ζ of the robot on it."""
-    if not math.isfinite(link.n_per_m):
-        return {}
-    return {"solref": (math.sqrt(mass_kg / link.n_per_m) / ROD_DAMPING, ROD_DAMPING)}
-
-
 def _material(colour: Colour) -> str:
     return "colour_" + "".join(f"{round(255.0 * part):02x}" for part in colour)
 
@@ -157,6 +150,4 @@ def _material(colour: Colour) -> str:
 def _excluded(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     """Yield the pairs of bodies without a common joint: between others MuJoCo has no contacts anyway."""
     joined = {frozenset((joint.parent, joint.child)) for joint in mechanism.joints}
-    names = [*mechanism.bodies]
-    for index, one in enumerate(names):
-        yield from ((one, other) for other in names[index + 1 :] if frozenset((one, other)) not in joined)
+    yield from (pair for pair in itertools.combinations(mechanism.bodies, 2) if frozenset(pair) not in joined)

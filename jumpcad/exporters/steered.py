@@ -44,7 +44,8 @@ def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[An
         if part.name in WHEEL_PARTS:
             turning += [part.mass.placed(in_metres(one.T_body_part)) for one in part.placements]
     whole, wheel = mechanism.bodies[BODY], combined(turning)
-    rest = combined([_properties(whole), MassProperties(-wheel.mass_kg, wheel.com_m, -wheel.inertia_kg_m2)])
+    carried = MassProperties(whole.mass_kg, whole.com_m, whole.inertia_kg_m2)
+    rest = combined([carried, MassProperties(-wheel.mass_kg, wheel.com_m, -wheel.inertia_kg_m2)])
     seen = wheel.placed(T_wheel_body)
     touches = ContactSphere("rim", np.zeros(3), place.radius_mm / 1000.0, "foot")
     bodies = dict(mechanism.bodies)
@@ -75,7 +76,3 @@ def on_its_wheel(mechanism: Mechanism, pose: ReleasePose) -> ReleasePose:
     place_m = eye + np.einsum("ij,j->i", turn, pose.body_position_m - eye)
     velocity = np.einsum("ij,j->i", turn, pose.body_m_s)
     return replace(pose, body_position_m=place_m, body_pitch_rad=pose.body_pitch_rad + lean, body_m_s=velocity)
-
-
-def _properties(body: Body) -> MassProperties:
-    return MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2)

@@ -234,14 +234,12 @@ def _without_slivers(solid: "Shape[Any]") -> "Shape[Any]":
     return type(solid).cast(fix.FixShape())
 
 
-def _extruded(slab: Slab) -> "list[Solid]":
+def _extruded(slab: Slab) -> "Iterator[Solid]":
     from build123d import Face, Solid
 
-    made = []
     for piece in slab.region.decompose():
         outer, *inner = sorted(_wires(piece, slab.z0_mm), key=lambda wire: -wire.bounding_box().diagonal)
-        made.append(Solid.extrude(Face(outer, inner), (0.0, 0.0, slab.height_mm)))
-    return made
+        yield Solid.extrude(Face(outer, inner), (0.0, 0.0, slab.height_mm))
 
 
 def _wires(region: Region, z_mm: float) -> "list[Wire]":

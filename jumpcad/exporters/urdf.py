@@ -57,18 +57,8 @@ def tree(
 ) -> str:
     """Return the document of links and hinges.
 
-    Parameters
-    ----------
-    mechanism, settings
-        The joints have the settings' damping and dry friction.
-    visible, meshes
-        The visible meshes, and the path or URI of their folder.
-    cylinders
-        Capsules that are written as cylinders, by name, of each body: URDF has no capsules.
-    values
-        What else the template says.
-    leg
-        Limits of the leg's joint that are not those of the mechanism.
+    `meshes` is the path or URI of the visible meshes' folder, `cylinders` are capsules of each body, by name, written
+    as cylinders, which URDF has; `leg` are limits of its joint that are not those of the mechanism.
     """
     rubs = coefficients(mechanism, settings)
     links, joints = [], []

@@ -36,8 +36,7 @@ def complaints(
 ) -> list[str]:
     """Return one clause per wrong key, `file:line: key = value: what is wrong`, for the first ten of them.
 
-    Lines are looked up in the TOML text of the values' file `source`. Where there are several files, in `origins`, the
-    first that has a wrong key is named for it.
+    Lines are looked up in the TOML text of `source`, or of the first of `origins` that has the key.
     """
     items = error.errors(include_url=False)
     wrong = {item["loc"][:depth] for item in items for depth in range(len(item["loc"]))}

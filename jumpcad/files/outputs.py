@@ -165,10 +165,9 @@ def require_folder(path: Path) -> None:
 
 
 def require_writable(folder: Path) -> None:
-    """Require that files can be made in a folder, or in the nearest one above it that is there.
+    """Require that files can be made in a folder, or in the nearest one above it that is there, by making an empty one.
 
-    It makes an empty file and removes it: what the system says of rights is not the whole truth on disks that are
-    mounted to be read only, or shared. Called before long work, so that its result is not lost.
+    What the system says of rights is not the whole truth on disks that are shared or mounted to be read only.
     """
     require_path(folder)
     there = folder

@@ -33,10 +33,7 @@ def template_names(kind: str) -> list[str]:
 
 
 def find_template(kind: str, name_or_path: str | Path) -> Path:
-    """Return the TOML file of a template's name, or a path; a path to a TOML file need not exist.
-
-    A template's name without suffix or folder is always the template, also if the working directory has such a file.
-    """
+    """Return the TOML file of a template's name, also if there is such a file, or a path, which need not exist."""
     text = str(name_or_path)
     if text.endswith(".toml") or os.path.dirname(text):
         return Path(text)

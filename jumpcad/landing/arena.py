@@ -59,16 +59,9 @@ class Floor:
 
 
 class Arena:
-    """One robot on one floor; methods go on from where the last one ended.
+    """One printed robot on one floor with obstacles; methods go on from where the last one ended.
 
-    Parameters
-    ----------
-    robot
-        A printed robot.
-    settings
-        Of which gravity and friction hold; None: the defaults.
-    obstacles
-        What stands on the floor.
+    Of the settings gravity and friction hold.
     """
 
     def __init__(self, robot: Robot, settings: Settings | None = None, obstacles: Sequence[Obstacle] = ()) -> None:
@@ -304,6 +297,8 @@ class Arena:
             if mesh >= 0:
                 first = model.mesh_vertadr[mesh]
                 reach = float((model.mesh_vert[first : first + model.mesh_vertnum[mesh]] @ up).min())
+            elif model.geom_type[geom] == self._mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+                reach = -float(np.linalg.norm(model.geom_size[geom] * up))
             else:
                 radius, half = model.geom_size[geom, :2]
                 reach = -radius - abs(up[2]) * half

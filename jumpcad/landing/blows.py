@@ -16,14 +16,13 @@ from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.findings import Finding, at_most, lower
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.robot.cage.limits import landing_n, ring_n_per_mm
-from jumpcad.robot.cage.place import Cage, CageBar
+from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.electronics.limits import holding_findings
 from jumpcad.robot.foot.limits import toe_findings
 from jumpcad.robot.foot.pads import TOE_AHEAD_MM, TOE_BACK_MM
 from jumpcad.robot.leg.thing import leg_findings
 from jumpcad.robot.load_case import LoadCase, load_case
 from jumpcad.robot.robot import Robot
-from jumpcad.transforms import Array
 
 if TYPE_CHECKING:
     from jumpcad.landing.arena import Arena
@@ -88,7 +87,9 @@ class Blows:
             hits: list[tuple[str | tuple[str, str], list[Blow]]] = [(part, self.all)]
             if self._cage[shape[number]] and (cage := self._arena.robot.layout.of(Cage)):
                 front = int(model.geom_pos[shape[number], 0] > 0.0)
-                fall = ("rear", "front")[front], _way(cage.bars[front], -self._arena.pose(BODY)[2, :3])
+                down = cage.bars[front].T_body_bar[:3, :3].T @ -self._arena.pose(BODY)[2, :3]  # in the bar's frame
+                way = ("side", "top", "ahead" if down[2] > 0.0 else "behind")[int(np.argmax(np.abs(down)))]
+                fall = ("rear", "front")[front], way
                 hits.append((fall, self.falls.setdefault(fall, [])))
             for key, found in hits:
                 blow, last = self._now.get(key, (None, 0.0))
@@ -101,12 +102,6 @@ class Blows:
                     blow.impulse_ns += push * float(model.opt.timestep)
                     blow.work_j += push * max(float(falling[number]), 0.0) * float(model.opt.timestep)
                     blow.speed_m_s = max(blow.speed_m_s, float(falling[number]))
-
-
-def _way(bar: CageBar, down: Array) -> str:
-    """Return from where a floor hits a bar and its hoop; both are in the body's frame."""
-    turned = bar.T_body_bar[:3, :3].T @ down
-    return ("side", "top", "ahead" if turned[2] > 0.0 else "behind")[int(np.argmax(np.abs(turned)))]
 
 
 @dataclass(frozen=True)

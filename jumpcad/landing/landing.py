@@ -15,6 +15,7 @@ from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.blows import Blow, Blows, PartForce, landing_strength, part_forces
 from jumpcad.robot.cage.limits import fall_findings
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.place import Steering
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import FLOOR_SHARE
 
@@ -166,6 +167,8 @@ def _fly_and_rest(arena: Arena, rng: np.random.Generator, watch: Blows | None = 
     """Jump and come to rest on another floor; return how far away it touches down and rests (m)."""
     arena.stand_on(scattered_floor(rng))
     arena.stand()
+    if arena.robot.layout.of(Steering) is not None:
+        arena.step(HOLD_S, quiet=True)  # it leans on its wheel and one toe
     start = arena.centre_of_mass_m
     arena.release()
     if not arena.fall():

@@ -220,13 +220,7 @@ def jumps(
 
 
 def hop(arena: Arena, rng: np.random.Generator, recorder: Recorder, turn: Callable[[], None] | None = None) -> Hop:
-    """Wind, rest, `turn`, jump and come to rest.
-
-    Raises
-    ------
-    CannotBuildError
-        If its first jump does not leave the floor, of a robot that does not turn.
-    """
+    """Wind, rest, `turn`, jump and come to rest; `CannotBuildError` if the first, unturned, stays on the floor."""
     begun = float(arena.data.time)
     recorder.begin()
     arena.wind(arena.robot.layout.drive.train.winding_s, lambda: recorder("winding"))

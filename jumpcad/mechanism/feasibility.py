@@ -58,7 +58,13 @@ def geometry_findings(design: Design) -> list[Finding]:
     if assembly <= 0:
         return [_loop_finding(assembly, "there is no pose with parallel legs and a flat foot")]
     if design.compression_rad <= 0:
-        return [_winding_finding(design)]
+        to_flat = design.rest_angle_deg + math.degrees(design.beta_rad)  # beta: the body's nose-down tilt at rest
+        return [Finding(
+            "winding", "error", to_flat, "°",
+            f"the springs cannot be loaded: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, which "
+            f"leaves {to_flat:.1f}° of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg; more than 0° are "
+            "needed", nearer_to_1("c_coef") + higher("d_coef"), to_flat, 0.0,
+        )]  # fmt: skip
     linkage = linkage_of(design)
     margin = linkage.closing_margin_mm()
     loop = _loop_finding(margin, "foot and front link must reach each other over the whole travel")
@@ -119,17 +125,6 @@ def centre_of_mass_on_foot_mm(mechanism: Mechanism, linkage: Linkage, pose: Pose
         moment += body.mass_kg * (origin + 1000.0 * points(body.com_m[::2]) * np.exp(-1j * angle))
     centre = (moment / mechanism.mass_kg - points(pose.ankle_mm)) * np.exp(1j * pose.foot_rad)
     return np.stack([centre.real, centre.imag], axis=-1)
-
-
-def _winding_finding(design: Design) -> Finding:
-    """Return the finding of a body whose nose-down tilt at rest exceeds `rest_angle_deg`."""
-    to_flat = design.rest_angle_deg + math.degrees(design.beta_rad)
-    return Finding(
-        "winding", "error", to_flat, "°",
-        f"the springs cannot be loaded: the body tilts by {math.degrees(design.beta_rad):.1f}° at rest, which leaves "
-        f"{to_flat:.1f}° of rest_angle_deg = {design.rest_angle_deg:g} to a flat leg; more than 0° are needed",
-        nearer_to_1("c_coef") + higher("d_coef"), to_flat, 0.0,
-    )  # fmt: skip
 
 
 def _loop_finding(margin_mm: float, why: str) -> Finding:

@@ -100,8 +100,7 @@ def five_bar(
         hinge("ankle", MAIN_LEG, FOOT, l2, design.beta_rad - rest, ankle, 0.0),
     )
     loop = Loop(FRONT_LINK, np.array([l3, 0.0, 0.0]), FOOT, np.array([l4, 0.0, 0.0]))
-    spring = Spring("leg", design.stiffness_nm_per_rad, design.compression_rad)
-    return joints, loop, spring
+    return joints, loop, Spring("leg", design.stiffness_nm_per_rad, design.compression_rad)
 
 
 def _ranges(linkage: Linkage, leg_range_rad: tuple[float, float]) -> list[tuple[float, float]]:

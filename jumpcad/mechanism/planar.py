@@ -58,8 +58,7 @@ def about_common_centre(
     arm, speed = (one - (share * one).sum(axis=-1, keepdims=True) for one in (place, velocity))
     momentum = (mass * dot(-1j * arm, speed) + inertia * rate).sum(axis=-1)
     double = (mass * dot(speed, speed) + inertia * rate**2).sum(axis=-1)
-    whole = (mass * dot(arm, arm) + inertia).sum(axis=-1)
-    return momentum, double, whole
+    return momentum, double, (mass * dot(arm, arm) + inertia).sum(axis=-1)
 
 
 def points(vector: Array) -> Complex:

@@ -89,7 +89,6 @@ class Reproduction:
     jump: Jump
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
         return {
             "robot": self.published.template, "published": asdict(self.published.simulated),
             "reproduced": asdict(self.again), "measured": self.published.measured and asdict(self.published.measured),

@@ -7,7 +7,7 @@ laid on the bed on their left or right face. What a bundle says of a part's mass
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 from manifold3d import Manifold
@@ -19,10 +19,7 @@ from jumpcad.printing.bed import BedFit, fit_to_bed, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
-from jumpcad.transforms import Array, ByValue
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, ByValue, Trimesh
 
 Shape: TypeAlias = Stack | Blocks
 Face = Literal["left", "right"]
@@ -41,8 +38,39 @@ class Placement(ByValue):
     T_body_part: Array
 
 
+class Shaped:
+    """Something of a `shape`, in printing orientation or in its own frame: its solid and meshes (mm)."""
+
+    shape: Shape
+
+    @cached_property
+    def solid(self) -> Manifold:
+        """It as one closed solid."""
+        return solid_of(self.shape)
+
+    @cached_property
+    def mesh(self) -> Trimesh:
+        """Its mesh."""
+        return _mesh_of(self.shape, 0.0)
+
+    @cached_property
+    def shown_mesh(self) -> Trimesh:
+        """The mesh without fine detail, for pictures."""
+        return _mesh_of(self.shape, UNSEEN_MM)
+
+
 @dataclass(frozen=True)
-class Drawing:
+class Piece(Shaped):
+    """A printed piece, in printing orientation, and how many of it are needed."""
+
+    name: str
+    material: str
+    shape: Shape
+    quantity: int = 1
+
+
+@dataclass(frozen=True)
+class Drawing(Shaped):
     """A part before it is printed: its name, its role, its shape in printing orientation (z up) and its places.
 
     `role` chooses the material in the workshop: `links`, `body` or `gears`.
@@ -52,11 +80,6 @@ class Drawing:
     role: Literal["links", "body", "gears"]
     shape: Shape
     placements: tuple[Placement, ...]
-
-    @cached_property
-    def solid(self) -> Manifold:
-        """The part as one closed solid in printing orientation (mm)."""
-        return solid_of(self.shape)
 
     def fit_to_bed(self, bed_mm: Sequence[float]) -> BedFit:
         """Return how the part fits a bed (x, y, z)."""
@@ -69,16 +92,6 @@ class Drawing:
     def _outline_mm(self) -> Array:
         return self.shape.outline_mm
 
-    @cached_property
-    def mesh(self) -> "trimesh.Trimesh":
-        """The part's mesh in printing orientation (mm)."""
-        return mesh_of(self.shape)
-
-    @cached_property
-    def shown_mesh(self) -> "trimesh.Trimesh":
-        """The mesh without fine detail, for pictures of the part (mm)."""
-        return shown_mesh_of(self.shape)
-
 
 @lru_cache(SHAPES_KEPT)
 def solid_of(shape: Shape) -> Manifold:
@@ -86,20 +99,12 @@ def solid_of(shape: Shape) -> Manifold:
     return shape.solid()
 
 
-@lru_cache(SHAPES_KEPT)
-def mesh_of(shape: Shape) -> "trimesh.Trimesh":
-    """Return a shape's mesh (mm); whoever asks gets the same one."""
+@lru_cache(2 * SHAPES_KEPT)
+def _mesh_of(shape: Shape, unseen_mm: float) -> Trimesh:
+    """Return a shape's mesh without smaller detail (mm); whoever asks gets the same one."""
     from jumpcad.solids.stl import to_trimesh
 
-    return to_trimesh(solid_of(shape))
-
-
-@lru_cache(SHAPES_KEPT)
-def shown_mesh_of(shape: Shape) -> "trimesh.Trimesh":
-    """Return a shape's mesh without fine detail (mm); whoever asks gets the same one."""
-    from jumpcad.solids.stl import to_trimesh
-
-    return to_trimesh(solid_of(shape).simplify(UNSEEN_MM))
+    return to_trimesh(solid_of(shape).simplify(unseen_mm) if unseen_mm else solid_of(shape))
 
 
 def lying_stack(slabs: Iterable[tuple[float, float, Region]], face: Face = "left") -> tuple[Stack, Array]:
@@ -131,7 +136,7 @@ def upright(z_mm: float, x_mm: float = 0.0, y_mm: float = 0.0) -> Array:
 
 
 @dataclass(frozen=True, repr=False)
-class Part:
+class Part(Shaped):
     """A printed part: a drawing with its material, and the mass of one copy in its printing frame (kg, m).
 
     `mass_source` says where the mass came from: `printed` (layer model), `solid` (volume times density), `weighed`.
@@ -157,15 +162,10 @@ class Part:
         """How many copies the robot needs."""
         return len(self.drawing.placements)
 
-    @property
-    def mesh(self) -> "trimesh.Trimesh":
-        """Mesh in printing orientation (mm)."""
-        return self.drawing.mesh
-
-    @property
-    def shown_mesh(self) -> "trimesh.Trimesh":
-        """The mesh without fine detail, for pictures (mm)."""
-        return self.drawing.shown_mesh
+    @cached_property
+    def shape(self) -> Shape:  # type: ignore[override]
+        """Its shape in printing orientation."""
+        return self.drawing.shape
 
     @property
     def mass_kg(self) -> float:

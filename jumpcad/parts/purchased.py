@@ -3,27 +3,22 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
-from manifold3d import Manifold
 
 from jumpcad.catalogue import Bearing, Catalogue, Screw
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY, MAIN_LEG
-from jumpcad.parts.part import lying_on_left, lying_stack, shown_mesh_of, solid_of
+from jumpcad.parts.part import Shaped, lying_on_left, lying_stack
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring
 from jumpcad.solids.slab import Interval, Slab
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire, tube
-from jumpcad.transforms import Array, ByValue, chained, in_metres, pose_about_z
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, ByValue, Trimesh, chained, in_metres, pose_about_z
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class BoughtPart(ByValue):
+class BoughtPart(Shaped, ByValue):
     """One bought part on the robot.
 
     `article` is what to order and `units` how many of it this piece counts for: 0 for a piece of one that is counted
@@ -59,15 +54,10 @@ class BoughtPart(ByValue):
         return replace(self, wire=wire)
 
     @cached_property
-    def solid(self) -> Manifold:
-        """The part's envelope in its own frame (mm)."""
-        return solid_of(self.shape)
-
-    @cached_property
-    def shown_mesh(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> Trimesh:
         """The mesh that is seen, in its own frame, without detail that eyes miss (mm)."""
         if self.wire is None:
-            return shown_mesh_of(self.shape)
+            return super().shown_mesh
         rotation, origin = self.T_body_part[:3, :3], self.T_body_part[:3, 3]
         return tube(np.einsum("ji,nj->ni", rotation, self.wire.points_mm - origin), self.wire.diameter_mm)
 

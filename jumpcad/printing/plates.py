@@ -3,16 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import rectpack
 
 from jumpcad.printing.bed import require_bed
-from jumpcad.transforms import Array
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, Trimesh
 
 STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
 EDGE_MM = 5.0
@@ -39,11 +36,11 @@ class Printable(Protocol):
         """How many are needed."""
 
     @property
-    def mesh(self) -> "trimesh.Trimesh":
+    def mesh(self) -> Trimesh:
         """The mesh."""
 
     @property
-    def shown_mesh(self) -> "trimesh.Trimesh":
+    def shown_mesh(self) -> Trimesh:
         """The mesh as detailed as a picture needs."""
 
 

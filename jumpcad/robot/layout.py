@@ -7,17 +7,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal, TypeVar
 
+from jumpcad import dimensions
 from jumpcad.catalogue import Bearing, Component, LegBar
 from jumpcad.design import Design
-from jumpcad.dimensions import (
-    AXLE_BOSS_MM,
-    AXLE_FLOOR_MM,
-    GAP_MM,
-    PAD_WALL_MM,
-    SPACER_RADIUS_MM,
-    SPRING_BOSS_WALL_MM,
-    STANDOFF_PAD_MM,
-)
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
@@ -107,29 +99,19 @@ class Layout:
         return self.toe_half_width_mm - float(toe_tip_mm(self.design)[1])
 
     @property
-    def stop_preload_rad(self) -> float:
-        """How far the springs are wound with the leg on its stop; below 0 they are slack there."""
-        return self.drive.spring.preload_rad - self.stop.angle_rad
-
-    @property
     def floor_mm(self) -> float:
         """Thickness of what closes the plates' bores outside; 0 where axles pass the plates."""
-        return AXLE_FLOOR_MM if self.retention == "plates" else 0.0
+        return dimensions.AXLE_FLOOR_MM if self.retention == "plates" else 0.0
 
     @property
     def boss_mm(self) -> float:
         """By how much the plates are thicker, inside, around the leg's axle."""
-        return AXLE_BOSS_MM if self.retention == "plates" else 0.0
-
-    @property
-    def spring_boss_outer_mm(self) -> float:
-        """Diameter of the boss in which the springs' pin stands."""
-        return self.axle_mm + 2.0 * SPRING_BOSS_WALL_MM
+        return dimensions.AXLE_BOSS_MM if self.retention == "plates" else 0.0
 
     @property
     def spring_bore_room_mm(self) -> float:
         """Diameter of what may be around the leg's axle inside the springs' coils."""
-        return min(2.0 * SPACER_RADIUS_MM, self.drive.spring.mandrel_mm)
+        return min(2.0 * dimensions.SPACER_RADIUS_MM, self.drive.spring.mandrel_mm)
 
     @property
     def ankle_face_mm(self) -> float:
@@ -150,17 +132,17 @@ def make_layout(
     """
     lateral = lateral_stack(
         sections.thickness_mm, sections.lug_thickness_mm, roller.width_mm, drive.spring.body_length_mm,
-        tuple(stage.face_width_mm for stage in reversed(drive.train.stages)), drive.train.motor, plate_mm,
+        tuple(stage.wheel.face_width_mm for stage in reversed(drive.train.stages)), drive.train.motor, plate_mm,
         electronics.width_mm, roller_screw_mm(sections.thickness_mm, roller, workshop.catalogue),
         workshop.body.right_mm,
     )  # fmt: skip
     bought, reserve_mm, axle_mm = workshop.bought, workshop.safety.room_reserve_mm, workshop.bought.axle_mm
     ear_mm = cap_ear_mm(workshop.fits.wall_min_mm)
-    inside, pin_radius = lateral.inside, drive.spring.pin_radius_mm
+    inside, pin_radius = lateral.inside, drive.spring.arms.pin_radius_mm
     hub, front = linkage.back_pivot_mm, linkage.front_pivot_mm
-    cam_axis = hub + drive.cam.cam_axis_mm
-    _require_legs_apart(linkage, sections, GAP_MM + reserve_mm)
-    stop_rad = stop_angle_rad(linkage, sections, math.radians(workshop.body.stop_deg), GAP_MM + reserve_mm)
+    cam_axis = hub + drive.cam.geometry.axis_mm
+    _require_legs_apart(linkage, sections, dimensions.GAP_MM + reserve_mm)
+    stop_rad = stop_angle_rad(linkage, sections, math.radians(workshop.body.stop_deg), dimensions.GAP_MM + reserve_mm)
     moving = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD)
     require_shaft(drive.train.motor, lateral)
     beside_hub, front_axle = hub_obstacles(hub, drive, lateral), axle_obstacle("front axle", front, lateral)
@@ -168,8 +150,8 @@ def make_layout(
     wheel = drive.train.stages[-1].wheel
     require_gear_room([*beside_hub, front_axle], cam_axis, wheel.tip_radius_mm, lateral.gears[0])
     # close to the springs and to what moves, and without the leg, which meets the stop
-    around_leg = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, GAP_MM)[1:]
-    around_leg += [*hub_obstacles(hub, drive, lateral, GAP_MM), front_axle, *cam_things]
+    around_leg = swept_obstacles(linkage, sections, drive, lateral, stop_rad + GIVE_ROOM_RAD, dimensions.GAP_MM)[1:]
+    around_leg += [*hub_obstacles(hub, drive, lateral, dimensions.GAP_MM), front_axle, *cam_things]
     stop = stop_place(
         around_leg, linkage, sections, stop_rad, workshop.stop_pad, inside, lateral.left_plate, reserve_mm
     )
@@ -190,10 +172,12 @@ def make_layout(
     tray = tray_place(obstacles, electronics, float(front[0]), inside)
     obstacles.append(electronics_obstacle(electronics, tray, inside))
     standoffs = standoff_places(obstacles, cam_axis, front, electronics, tray, inside)
-    obstacles += [disc("standoff", place, STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
+    obstacles += [disc("standoff", place, dimensions.STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
     beside = [*seats.values(), stop.tab_mm]
     boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
-    fittings = fittings_of(obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + PAD_WALL_MM)
+    fittings = fittings_of(
+        obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + dimensions.PAD_WALL_MM
+    )
     return Layout(
         linkage=linkage, sections=sections, drive=drive, lateral=lateral, electronics=electronics,
         hub_bearing=hub_bearing, toes_apart=toes_apart, axle_mm=axle_mm, retention=bought.retention,

@@ -17,26 +17,8 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.sizing import dog_inside_mm
-from jumpcad.strength.axles import (
-    SCREW_CORE_MM,
-    SCREW_THREAD_MM,
-    AxleBeam,
-    RoundBar,
-    axle_bar,
-    mesh_force_n,
-    on_hub,
-    pin_bar,
-)
+from jumpcad.strength import axles, loads
 from jumpcad.strength.bearings import loaded_forces_n
-from jumpcad.strength.loads import (
-    MovingMass,
-    PushOffForces,
-    landing_force_n,
-    push_off,
-    reflected_share,
-    toe_load_n,
-    toe_reach_mm,
-)
 from jumpcad.strength.stress import VON_MISES, Shell, jaw_stress_mpa, pin_stress_mpa, tube_shear_mpa
 from jumpcad.transforms import Array, direction, turned_about_y
 from jumpcad.workshop import Workshop
@@ -48,11 +30,10 @@ CAM_TURNS, IDLER_TURNS = 1.0, -1.0
 """Senses about +y; see `jumpcad.drive.cam`."""
 
 
-def axle_beams(layout: Layout, arms_n: tuple[Array, Array], cam_n: Array, front_n: Array) -> dict[str, AxleBeam]:
+def axle_beams(layout: Layout, arms_n: tuple[Array, Array], cam_n: Array, front_n: Array) -> dict[str, axles.AxleBeam]:
     """Return the axles and the springs' pin as beams on both plates, by their names.
 
-    - `arms_n`: Forces (2,) of both springs' arms on the leg and on the springs' pin.
-    - `cam_n`, `front_n`: Forces (2,) of the cam on the lever, and of the front link on its axle.
+    Forces are (2,): of both springs' arms on leg and pin, of the cam on the lever, of the front link on its axle.
     """
     lateral, (on_leg, on_pin) = layout.lateral, arms_n
     plates = lateral.plates_mm
@@ -62,26 +43,26 @@ def axle_beams(layout: Layout, arms_n: tuple[Array, Array], cam_n: Array, front_
     hub = (width - bearing.width_mm) / 2.0 if bearing else PLAIN_HUB * width
     coils = [(side * end, -force / 2.0) for side in (1.0, -1.0) for end, force in ((inner, on_leg), (outer, on_pin))]
     return {
-        "leg_axle": AxleBeam.of(plates, *on_hub(on_leg, hub), *on_hub(cam_n, hub, cam), *coils),
-        "front_axle": AxleBeam.of(plates, *on_hub(front_n, PLAIN_HUB * width)),
-        "spring_pin": AxleBeam.of(plates, (outer, on_pin / 2.0), (-outer, on_pin / 2.0)),
+        "leg_axle": axles.AxleBeam.of(plates, *axles.on_hub(on_leg, hub), *axles.on_hub(cam_n, hub, cam), *coils),
+        "front_axle": axles.AxleBeam.of(plates, *axles.on_hub(front_n, PLAIN_HUB * width)),
+        "spring_pin": axles.AxleBeam.of(plates, (outer, on_pin / 2.0), (-outer, on_pin / 2.0)),
         **_train_beams(layout, plates, (cam, -cam_n)),
     }
 
 
-def _train_beams(layout: Layout, plates: tuple[float, float], cam: tuple[float, Array]) -> dict[str, AxleBeam]:
+def _train_beams(layout: Layout, plates: tuple[float, float], cam: tuple[float, Array]) -> dict[str, axles.AxleBeam]:
     """Return the axles of cam and idler, which the teeth of their gears push too; `cam` is place and force (2,)."""
     lateral, train = layout.lateral, layout.drive.train
     *_, pair = train.stages
     *_, torque = train.wheel_torques_nm
     driver = layout.motor_mm if layout.idler_mm is None else layout.idler_mm
-    on_cam_gear = mesh_force_n(1000.0 * torque, pair, layout.cam_axis_mm, driver, CAM_TURNS)
+    on_cam_gear = axles.mesh_force_n(1000.0 * torque, pair, layout.cam_axis_mm, driver, CAM_TURNS)
     gear = sum(lateral.gears[0]) / 2.0
-    beams = {"cam_axle": AxleBeam.of(plates, cam, (gear, on_cam_gear))}
+    beams = {"cam_axle": axles.AxleBeam.of(plates, cam, (gear, on_cam_gear))}
     if layout.idler_mm is not None:
         pair, torque, wheel = train.stages[0], train.wheel_torques_nm[0], sum(lateral.gears[1]) / 2.0
-        on_wheel = mesh_force_n(1000.0 * torque, pair, layout.idler_mm, layout.motor_mm, IDLER_TURNS)
-        beams["idler_axle"] = AxleBeam.of(plates, (gear, -on_cam_gear), (wheel, on_wheel))
+        on_wheel = axles.mesh_force_n(1000.0 * torque, pair, layout.idler_mm, layout.motor_mm, IDLER_TURNS)
+        beams["idler_axle"] = axles.AxleBeam.of(plates, (gear, -on_cam_gear), (wheel, on_wheel))
     return beams
 
 
@@ -135,23 +116,23 @@ class LoadCase:
         return self.workshop.material("links").strength_in_plane_mpa / self.workshop.safety.printed_factor
 
     @cached_property
-    def bars(self) -> dict[str, RoundBar]:
+    def bars(self) -> dict[str, axles.RoundBar]:
         """What axles and pins are, by the names of `steel_stresses_mpa`."""
-        axle, pin = axle_bar(self.workshop), pin_bar(self.workshop)
+        axle, pin = axles.axle_bar(self.workshop), axles.pin_bar(self.workshop)
         return dict.fromkeys(self.beams, axle) | {"foot_pin": pin, "leg_pin": pin}
 
     @cached_property
-    def forces(self) -> PushOffForces:
+    def forces(self) -> loads.PushOffForces:
         """Forces of the push-off, with the body's mass and inertia."""
         body = self.robot.bodies[BODY]
         gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
-        mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return push_off(self.robot.linkage, mass, self.robot.spring)
+        mass = loads.MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
+        return loads.push_off(self.robot.linkage, mass, self.robot.spring)
 
     @cached_property
     def toes_n(self) -> float:
         """Largest load of both toes' tips together in the push-off (N)."""
-        return float(toe_load_n(self.forces, self.layout.design, self.layout.sections.ground_mm).max())
+        return float(loads.toe_load_n(self.forces, self.layout.design, self.layout.sections.ground_mm).max())
 
     @cached_property
     def ankle_n(self) -> float:
@@ -168,7 +149,7 @@ class LoadCase:
         """Mean force of a landing from as high as the springs' energy could lift the robot (N)."""
         mass = self.robot.mass_kg
         rise_m = self.robot.spring.energy_j / (mass * GRAVITY_M_S2)
-        return landing_force_n(self.robot.design, mass, self.workshop.safety.landing_stop_mm, rise_m)
+        return loads.landing_force_n(self.robot.design, mass, self.workshop.safety.landing_stop_mm, rise_m)
 
     @cached_property
     def toe_blow_n(self) -> float:
@@ -177,9 +158,9 @@ class LoadCase:
         about_x, about_y = 1000.0 * np.sqrt(np.diag(body.inertia_kg_m2)[:2] / body.mass_kg)
         rest = self.robot.linkage.pose(np.zeros(1))
         centre = turned_about_y(1000.0 * body.com_m[[0, 2]] - rest.ankle_mm, -rest.foot_rad)
-        back, aside = toe_reach_mm(self.robot.design)
+        back, aside = loads.toe_reach_mm(self.robot.design)
         arm = float(centre[0, 0]) + back, aside - 1000.0 * abs(float(body.com_m[1]))  # of the nearer toe
-        return self.landing_n * reflected_share(arm, (float(about_x), float(about_y)))
+        return self.landing_n * loads.reflected_share(arm, (float(about_x), float(about_y)))
 
     @cached_property
     def steel_stresses_mpa(self) -> dict[str, float]:
@@ -193,19 +174,16 @@ class LoadCase:
         }
         stresses = {name: self.bars[name].stress_mpa(moment) for name, moment in moments.items()}
         if layout.retention == "nuts":
-            self._threads(stresses)
+            head = self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
+            lengths = {item.name: float(np.ptp(item.shape.bounds_mm[:, 2])) - head for item in self.robot.hardware}
+            for name, beam in self.beams.items():  # screws as axles: their thread, near the right plate
+                begins = lateral.left_plate[1] - (lengths[name] - axles.SCREW_THREAD_MM)
+                thread_mpa = pin_stress_mpa(beam.largest_nmm(begins), axles.SCREW_CORE_MM)
+                stresses[name] = max(stresses[name], thread_mpa)
         return stresses
 
-    def _threads(self, stresses: dict[str, float]) -> None:
-        """Raise the stresses of screws used as axles to those of their thread, near the right plate."""
-        head = self.workshop.catalogue.screws["M3 long"].cylinder_head_height_mm
-        lengths = {item.name: float(np.ptp(item.shape.bounds_mm[:, 2])) - head for item in self.robot.hardware}
-        for name, beam in self.beams.items():
-            begins = self.layout.lateral.left_plate[1] - (lengths[name] - SCREW_THREAD_MM)
-            stresses[name] = max(stresses[name], pin_stress_mpa(beam.largest_nmm(begins), SCREW_CORE_MM))
-
     @cached_property
-    def beams(self) -> dict[str, AxleBeam]:
+    def beams(self) -> dict[str, axles.AxleBeam]:
         """Axles and springs' pin between the plates; the front one bears the front link at release or at landing."""
         front = np.array([0.0, max(self.front_n, self.landing_n)])
         return axle_beams(self.layout, *self.wound_forces_n, front)

@@ -16,17 +16,8 @@ from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import Spring
+from jumpcad.strength import loads
 from jumpcad.strength.growth import Growth, grown_mm, in_hundredths
-from jumpcad.strength.loads import (
-    BLOW_FACTOR,
-    PEAK_SHARE,
-    MovingMass,
-    push_off,
-    rail_moment_nmm,
-    rail_twist_nmm,
-    toe_load_n,
-    toe_moment_nmm,
-)
 from jumpcad.strength.stress import (
     STATIONS,
     VON_MISES,
@@ -39,7 +30,7 @@ from jumpcad.strength.stress import (
 )
 from jumpcad.workshop import Fits, Workshop
 
-TYPICAL_BODY = MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
+TYPICAL_BODY = loads.MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
 """The body's mass properties before its parts are known; the templates have 90 to 112 g and 31 to 44 mm."""
 RESERVE = 1.15
 """Factor on every load, since masses and the lever are not known yet; judgement."""
@@ -150,7 +141,7 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     thickness = grown_mm(max(least, hub_width_mm, across), growth.thickness)
     bending = height_for_mm(torque, thickness, allowable, shell)
     root = max(HEIGHT_MIN_MM + ROOT_MORE_MM, bending)
-    forces = push_off(linkage, TYPICAL_BODY, springs)
+    forces = loads.push_off(linkage, TYPICAL_BODY, springs)
     axial = AXIAL_RESERVE * float(np.abs(forces.leg_axial_n).max())
 
     def flexes(leg: Beam) -> float:
@@ -166,10 +157,10 @@ def sections(linkage: Linkage, workshop: Workshop, hub_width_mm: float = 0.0, gr
     eye = max(eye, around / 2.0)
     depth = max(eye, leg_tip / 2.0) + ABOVE_GROUND_MM
     pad = workshop.foot_pad.thickness_mm if workshop.foot_pad else 0.0
-    toes = RESERVE * float(toe_load_n(forces, design, depth + pad).max())
-    toe = height_for_mm(toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
-    rail = height_for_mm(rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
-    twist = VON_MISES * rail_twist_nmm(design, toes, rail_middle_mm(thickness, lug))
+    toes = RESERVE * float(loads.toe_load_n(forces, design, depth + pad).max())
+    toe = height_for_mm(loads.toe_moment_nmm(design, toes), TOE_WIDTH_MM, allowable, shell, upright=True)
+    rail = height_for_mm(loads.rail_moment_nmm(design, toes), lug, allowable, shell, upright=True)
+    twist = VON_MISES * loads.rail_twist_nmm(design, toes, rail_middle_mm(thickness, lug))
     rail = max(rail, twisted_height_mm(twist, lug, material.strength_in_plane_mpa / TWIST_FACTOR))
     toe_root = in_hundredths(growth.toe * max(TOE_MIN_MM, toe))
     jaw = fits.pin_min_mm + DOG_FACETS_MM  # as thick as the thinnest column that can be printed
@@ -225,8 +216,8 @@ def _raised_mm(
 def _stop_mm(workshop: Workshop, energy_j: float, width_mm: float, shell: Shell) -> float:
     """Return the depth of the rest stop's bar, a beam on both plates with the pad's force over the leg's width."""
     pad_n_per_mm = workshop.stop_pad.rate_n_per_mm(width_mm, STOP_PAD_MM)
-    force = PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
-    moment = BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
+    force = loads.PEAK_SHARE * math.sqrt(2.0 * STOP_SHARE * 1000.0 * energy_j * pad_n_per_mm)
+    moment = loads.BLOW_FACTOR * force * max(STOP_SPAN_MM - width_mm / 2.0, 0.0) / 4.0
     strength = workshop.material("links").strength_in_plane_mpa
     return max(STOP_MIN_MM, STOP_SEAT_MM + height_for_mm(moment, STOP_PAD_MM, strength, shell))
 

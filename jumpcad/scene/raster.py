@@ -5,17 +5,12 @@ edge that two triangles share is cut at the same points in both, so that there a
 """
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from jumpcad.transforms import Array
-
-if TYPE_CHECKING:
-    import trimesh
-
+from jumpcad.transforms import Array, Trimesh
 
 CREASE_RAD = 0.5
 """Faces that meet at a smaller angle are shaded smoothly."""
@@ -24,7 +19,7 @@ CACHED_MESHES = 128
 
 
 @lru_cache(maxsize=CACHED_MESHES)
-def with_normals(mesh: "trimesh.Trimesh") -> tuple[Array, Array, npt.NDArray[np.int64]]:
+def with_normals(mesh: Trimesh) -> tuple[Array, Array, npt.NDArray[np.int64]]:
     """Return vertices (n, 3), their normals (n, 3) and faces (m, 3); a vertex on a crease is repeated for each normal.
 
     A corner's normal is the mean, weighted by area, of the faces around its vertex that meet its own face at less than

@@ -9,7 +9,7 @@ import io
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,7 @@ from PIL import Image
 
 from jumpcad.scene.raster import CREASE_RAD, rasterized, with_normals
 from jumpcad.scene.visuals import Colour
-from jumpcad.transforms import Array
+from jumpcad.transforms import Array, Trimesh
 
 FIELD_OF_VIEW_DEG = 14.0
 """Small, so that the projection is nearly parallel."""
@@ -76,9 +76,6 @@ def turned(vectors: Array, rotation: Array) -> Array:
     return np.asarray(np.einsum("...j,kj->...k", vectors, rotation))
 
 
-if TYPE_CHECKING:
-    import trimesh
-
 Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 
@@ -114,7 +111,7 @@ class ShadedMesh:
 class Renderer:
     """Draws meshes (mm), each of one colour, in any poses and views."""
 
-    def __init__(self, things: Sequence[tuple["trimesh.Trimesh", Colour]]) -> None:
+    def __init__(self, things: Sequence[tuple[Trimesh, Colour]]) -> None:
         self._things = []
         for mesh, colour in things:
             vertices, normals, faces = with_normals(mesh)
@@ -169,7 +166,7 @@ def paletted(picture: Image.Image) -> Image.Image:
     return found
 
 
-def creases(mesh: "trimesh.Trimesh") -> Array:
+def creases(mesh: Trimesh) -> Array:
     """Return the ends (n, 2, 3) of the edges whose faces meet at more than the crease angle (mm)."""
     sharp = mesh.face_adjacency_angles > CREASE_RAD
     return np.asarray(mesh.vertices[mesh.face_adjacency_edges[sharp]], dtype=float)

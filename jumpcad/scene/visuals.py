@@ -9,7 +9,6 @@ import itertools
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import manifold3d
 import numpy as np
@@ -22,10 +21,7 @@ from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire
-from jumpcad.transforms import Array, chained, in_metres
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, Trimesh, chained, in_metres
 
 Colour = tuple[float, float, float]
 
@@ -62,16 +58,14 @@ class Visual:
     source: Part | BoughtPart
 
     @property
-    def mesh(self) -> "trimesh.Trimesh":
+    def mesh(self) -> Trimesh:
         """The mesh in its own frame (mm), as detailed as a picture needs."""
-        return self.source.drawing.shown_mesh if isinstance(self.source, Part) else self.source.shown_mesh
+        return self.source.shown_mesh
 
     @property
     def shape(self) -> Shape | DrawnWire:
         """What the mesh is made from."""
-        if isinstance(self.source, Part):
-            return self.source.drawing.shape
-        return self.source.wire or self.source.shape
+        return (isinstance(self.source, BoughtPart) and self.source.wire) or self.source.shape
 
     @property
     def corners_m(self) -> Array:

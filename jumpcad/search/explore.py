@@ -136,7 +136,6 @@ def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) 
     """Return the permutation importance of the free parameters for the score of designs that jump.
 
     A Gaussian process predicts each fifth of them from the other four; then one parameter at a time is permuted there.
-
     A fifth whose scores are equal says nothing.
     """
     space = searched.space if isinstance(searched, Evaluator) else searched

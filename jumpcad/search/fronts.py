@@ -37,8 +37,7 @@ def energies_j(values: Array) -> Array:
     # not numpy's arcsine, whose last digit differs between processors
     beta = np.array([math.asin(sine) for sine in np.where(assembled, rise / l4, 0.0).tolist()])
     stiffness = stiffness_nmm_per_deg * 180.0 / np.pi / 1000.0
-    energies: Array = np.where(assembled, 0.5 * stiffness * (ratio * (rest + beta)) ** 2, np.inf)
-    return energies
+    return np.asarray(np.where(assembled, 0.5 * stiffness * (ratio * (rest + beta)) ** 2, np.inf))
 
 
 @dataclass(frozen=True)

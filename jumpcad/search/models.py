@@ -10,29 +10,27 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from jumpcad.arguments import check_arguments, check_fields
+from jumpcad.building import layout_of
 from jumpcad.building.growth import statics_refusal
+from jumpcad.checks import CHECKS
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError, JumpcadError
-from jumpcad.evaluation import FIGURES, JUMP_FIGURES
+from jumpcad.evaluation import FIGURES, JUMP_FIGURES, evaluate_made
 from jumpcad.face import __version__
 from jumpcad.files import Record, did_you_mean
 from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.search.estimate.estimated_robot import (
-    layout_figures,
-    layout_findings,
-    quick_robot,
-    quick_size_m,
-    robot_figures,
-    room_findings,
-)
+from jumpcad.mechanism.variants import capsule_robot
+from jumpcad.search.estimate import estimated_robot as estimated
 from jumpcad.search.study.code_hash import code_digest, versions
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
 from jumpcad.search.study.requirement import Required, Requirement, requirements_of, violations
 from jumpcad.search.study.variant import NOTHING, PREFIX, Tolerances, Variant, perturbed
 from jumpcad.settings import Settings, load_settings
+from jumpcad.simulation import simulate
 from jumpcad.simulation.engines import default_engine, require_engine
+from jumpcad.simulation.planar import LACKING
 from jumpcad.simulation.prior import FLOOR_SHARE, PRINTED_MASS_SHARE, floors
 from jumpcad.simulation.uncertain import ROBUST_PITCH, ROBUST_TOUCHDOWN, robust_figures
 from jumpcad.workshop import DEFAULT, Workshop, load_workshop, varied
@@ -84,7 +82,7 @@ class RobotModel:
         try:
             return self._evaluated(design)
         except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=layout_findings(error), detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
 
     def _evaluated(self, design: Design) -> Evaluation:
         """Evaluate a design whose geometry is right."""
@@ -125,8 +123,6 @@ class RobotModel:
 
     def on_floors(self, robot: Mechanism, settings: Settings, engine: str) -> list[dict[str, float]]:
         """Return figures of a robot's jumps on slippery and rough floors, if a requirement depends on them."""
-        from jumpcad.simulation import simulate
-
         if not any(one.name in JUMP_FIGURES for one in self.requirements):
             return []
         return [plain_figures(simulate(robot, floor, engine)) for floor in floors(robot, settings)]
@@ -186,14 +182,9 @@ class CapsuleModel(RobotModel):
 
     def admits(self, design: Design) -> bool:
         """Whether the robot stands and its springs are strong enough, too."""
-        from jumpcad.mechanism.variants import capsule_robot
-
         return super().admits(design) and not errors(statics_findings(capsule_robot(design)))
 
     def _evaluated(self, design: Design) -> Evaluation:
-        from jumpcad.mechanism.variants import capsule_robot
-        from jumpcad.simulation import simulate
-
         jump = simulate(capsule_robot(design), self.settings, self.engine)
         return self.required(Evaluation(jump.verdict, plain_figures(jump), tuple(jump.findings)))
 
@@ -225,16 +216,15 @@ class PrintedModel(RobotModel):
         return refused or self._built(design)
 
     def _built(self, design: Design) -> Evaluation:
-        from jumpcad.evaluation import evaluate_made
-
         shop, made = self.workshop or load_workshop(), partial(perturbed, values=self.perturbation)
         settings = self.settings or Settings()
         result = evaluate_made(design, shop, self.settings, self.engine, made)
         robot = result.robot
-        findings = (*result.findings, *room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
+        findings = (*result.findings, *estimated.room_findings(robot.layout, robot.workshop.safety.room_reserve_mm))
         if self.perturbation:  # what the design keeps stands in its own row
             findings = (*result.jump.findings, *errors(findings[len(result.jump.findings) :]))
-        figures = plain_figures(result.jump) | result.metrics | (robot_figures(result.robot) if self.stand_in else {})
+        figures = plain_figures(result.jump) | result.metrics
+        figures |= estimated.robot_figures(robot) if self.stand_in else {}
         asked = self.asked
         if RIGHTS_ITSELF in asked:
             figures[RIGHTS_ITSELF] = result.rights_itself  # a fifth of an evaluation more
@@ -276,8 +266,6 @@ class PrintedModel(RobotModel):
 
     @property
     def limit_names(self) -> Sequence[str]:
-        from jumpcad.checks import CHECKS
-
         return [name for check in CHECKS if check.cheap for name in check.basis]
 
     def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
@@ -285,15 +273,13 @@ class PrintedModel(RobotModel):
 
         A sixth of an evaluation. What is refused here would be refused by the evaluation too.
         """
-        from jumpcad.building import layout_of
-
         if rejecting := errors(findings := geometry_findings(variant.design)):
             return Evaluation(rejecting[0].name, findings=tuple(findings))
         try:
             model = self.varied(variant.workshop) if variant.workshop else self
-            return layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
+            return estimated.layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
         except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=layout_findings(error), detail=str(error))
+            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
         except JumpcadError as error:  # the values of the workshop do not go together
             return Evaluation("workshop", detail=str(error))
 
@@ -302,15 +288,13 @@ class PrintedModel(RobotModel):
 
         Where it has no such figure, its touchdown ranks the designs.
         """
-        from jumpcad.simulation import simulate
-
-        robot = quick_robot(design) if self.admits(design) else None
+        robot = estimated.quick_robot(design) if self.admits(design) else None
         if robot is None or errors(statics_findings(robot)):
             return -math.inf
         jump = simulate(robot, load_settings("screening"), self.estimate_engine)
         if jump.verdict != "jump":
             return -math.inf
-        size = quick_size_m(design)
+        size = estimated.quick_size_m(design)
         figures = plain_figures(jump)
         figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
         try:
@@ -321,8 +305,6 @@ class PrintedModel(RobotModel):
     @cached_property
     def estimate_engine(self) -> str:
         """The engine of what is only estimated: the planar one, compiled or not, unless it lacks what is asked for."""
-        from jumpcad.simulation.planar import LACKING
-
         lacks = any(getattr(self.settings or Settings(), key) for key in LACKING)
         return self.engine if lacks else "planar"
 

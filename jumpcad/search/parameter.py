@@ -94,11 +94,9 @@ class SearchParameter:
         if self.by_factors:
             values = self.lower * (self.upper / self.lower) ** units
         if not self.choices:
-            rounded: Array = np.clip(values.round(DECIMALS), self.lower, self.upper)
-            return rounded
+            return np.asarray(np.clip(values.round(DECIMALS), self.lower, self.upper))
         choices = np.array(self.choices)
-        nearest: Array = choices[np.abs(values[:, None] - choices).argmin(axis=1)]
-        return nearest
+        return np.asarray(choices[np.abs(values[:, None] - choices).argmin(axis=1)])
 
     def value(self, number: float) -> Value:
         """Return the value of a number: the number itself, or the name with this index."""
@@ -173,6 +171,20 @@ def _number(text: str, whole: str, name: str) -> float:
         if "." not in name:  # a name of nothing takes no number either
             known_name(name, WORKSHOP)
         raise JumpcadError(f"{whole!r}: {text.strip()!r} is not a number") from None
+
+
+def changed_parameters(
+    fixed: Mapping[str, Value], bounds: Mapping[str, Any], choices: Mapping[str, Any], workshop: Workshop | None
+) -> dict[str, SearchParameter]:
+    """Return the parameters that are fixed, bounded or chosen, by name; see `Space.make`."""
+    asked: list[tuple[Kind, str, tuple[Any, ...]]] = [("fix", name, (value,)) for name, value in fixed.items()]
+    asked += [("bound", name, several(name, limits)) for name, limits in bounds.items()]
+    asked += [("choose", name, several(name, values)) for name, values in choices.items()]
+    changed: dict[str, SearchParameter] = {}
+    for kind, name, values in asked:
+        require_new(name, changed)
+        changed[name] = changed_parameter(kind, name, values, workshop)
+    return changed
 
 
 def changed_parameter(kind: Kind, name: str, asked: Sequence[Any], workshop: Workshop | None) -> SearchParameter:

@@ -1,9 +1,7 @@
 """The robust pick: of the best designs, the one whose neighbours jump well too; and the cost of its active bounds.
 
-Its evaluations are a share of the study's. Most candidates are soon known to be worse than others, so few neighbours
-are spent on them.
-
-Near some designs a thousandth of one parameter decides whether they jump; a printer is not that accurate.
+Most candidates are soon known to be worse than others, so few neighbours are spent on them. Near some designs a
+thousandth of one parameter decides whether they jump; a printer is not that accurate.
 """
 
 from collections import Counter
@@ -16,7 +14,7 @@ from pydantic import AfterValidator, ConfigDict, PlainSerializer
 
 from jumpcad.design import PARAMETERS
 from jumpcad.search.parameter import physical_limits
-from jumpcad.search.space import Space
+from jumpcad.search.space import Space, apart
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import Figure, Reason
 from jumpcad.search.study.trial import Count, Position, Trial, feasible_trials
@@ -215,14 +213,8 @@ def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tup
 
 def best_apart(space: Space, trials: Sequence[Trial], count: int) -> list[Trial]:
     """Return the best feasible trials that differ by at least a fiftieth of a range in some parameter, best first."""
-    chosen: list[Trial] = []
-    for trial in feasible_trials(trials):
-        unit = space.to_unit(trial.variant)
-        if all(np.abs(unit - space.to_unit(other.variant)).max() >= APART for other in chosen):
-            chosen.append(trial)
-        if len(chosen) == count:
-            break
-    return chosen
+    ranked = feasible_trials(trials)
+    return [ranked[index] for index in apart((space.to_unit(one.variant) for one in ranked), APART, count)]
 
 
 def named_bounds(space: Space, trial: Trial) -> list[ActiveBound]:

@@ -6,7 +6,7 @@ names evenly.
 """
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -19,16 +19,7 @@ from jumpcad.drive import SpringLimits
 from jumpcad.drive.spring_choice import STIFFNESS, rest_angles_deg
 from jumpcad.errors import JumpcadError
 from jumpcad.robot.springs.place import PLATE_PINS_RAD
-from jumpcad.search.parameter import (
-    Kind,
-    SearchParameter,
-    changed_parameter,
-    known_name,
-    physical_limits,
-    read_changes,
-    require_new,
-    several,
-)
+from jumpcad.search.parameter import SearchParameter, changed_parameters, known_name, physical_limits, read_changes
 from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.simulation.prior import sobol
 from jumpcad.transforms import Array
@@ -54,6 +45,19 @@ def _with_springs(workshop: Workshop, lowest_deg: float) -> dict[str, SearchPara
     reached = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
     angles = [one for one in reached if one >= lowest_deg]
     return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
+
+
+def apart(
+    points: Iterable[Array], least: float, count: int, admits: Callable[[int], bool] = lambda _index: True
+) -> list[int]:
+    """Return the indices of the first points (d,) that are admitted and differ by `least` along some axis."""
+    chosen: dict[int, Array] = {}
+    for index, point in enumerate(points):
+        if len(chosen) == count:
+            break
+        if all(np.abs(point - other).max() >= least for other in chosen.values()) and admits(index):
+            chosen[index] = point
+    return list(chosen)
 
 
 @dataclass(frozen=True, repr=False)
@@ -116,13 +120,7 @@ class Space:
             )
         if within_percent is not None and not 0 < within_percent <= 100:
             raise JumpcadError(f"within {within_percent:g} % is outside 0…100 %: a share of each parameter's range")
-        asked: list[tuple[Kind, str, tuple[Any, ...]]] = [("fix", name, (value,)) for name, value in fixed.items()]
-        asked += [("bound", name, several(name, limits)) for name, limits in bounds.items()]
-        asked += [("choose", name, several(name, values)) for name, values in choices.items()]
-        changed: dict[str, SearchParameter] = {}
-        for kind, name, values in asked:
-            require_new(name, changed)
-            changed[name] = changed_parameter(kind, name, values, workshop)
+        changed = changed_parameters(fixed, bounds, choices, workshop)
         lacks = {"cage": ("rod", "glass-1.5")} if workshop and not workshop.cage.rod else {}
         lacks |= {"steering": ("wheel", "o-ring")} if workshop and workshop.steering.wheel == "none" else {}
         for thing, (key, value) in lacks.items():
@@ -277,8 +275,7 @@ class Space:
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
         """Return the part of the space about one of its variants; None if nothing stays free in it.
 
-        Only the parameters `names` vary, all of them if empty; the others have the centre's values. Ranges reach so
-        many per cent of their width to either side, all of it if None.
+        Only `names` vary, all if empty; ranges reach so many per cent of their width to either side, all of it if None.
         """
         parts = []
         for parameter in self.parameters:

@@ -50,10 +50,11 @@ class BulletEngine:
             try:
                 yield world
             finally:
-                if world.blown_up():  # its NaN would stay in the client, and no later robot would jump
-                    self._bullet.disconnect(physicsClientId=self._client)
-                else:
+                left = world.state()
+                if np.isfinite(left.com_m).all() and np.isfinite(left.velocity_m_s).all():
                     self._bullet.removeBody(world.robot_id, physicsClientId=self._client)
+                else:  # its NaN would stay in the client, and no later robot would jump
+                    self._bullet.disconnect(physicsClientId=self._client)
 
     def _prepare(self, settings: Settings, ground_friction: float) -> None:
         bullet = self._bullet
@@ -167,8 +168,3 @@ class BulletWorld:
         rotation = values[:, 9:].reshape(-1, 3, 3) @ self._body_in_principal
         leg_rad = bullet.getJointState(mechanism, LEG, client)[0]
         return State(values[:, 0:3], rotation, values[:, 3:6], values[:, 6:9], (leg_rad,))
-
-    def blown_up(self) -> bool:
-        """Tell whether a body's position or velocity is no longer finite."""
-        state = self.state()
-        return not all(np.isfinite(values).all() for values in (state.com_m, state.velocity_m_s))

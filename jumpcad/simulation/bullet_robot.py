@@ -45,7 +45,10 @@ class BulletRobot:
                 physicsClientId=client,
             )  # fmt: skip
         if mechanism.roller_off:
-            self._set_off(bodies[0], release)
+            spin = np.array([0.0, release.body_rad_s, 0.0])
+            to_com = rotation_about_y(release.body_pitch_rad) @ bodies[0].com_m  # of which Bullet wants the velocity
+            moves = (release.body_m_s + np.cross(spin, to_com)).tolist()
+            bullet.resetBaseVelocity(self.number, moves, spin.tolist(), physicsClientId=client)
         self._close_loop(mechanism)
 
     def _create(self, mechanism: Mechanism, bodies: list[Body], release: ReleasePose) -> int:
@@ -83,12 +86,6 @@ class BulletRobot:
                 physicsClientId=self.client,
             )
         )
-
-    def _set_off(self, base: Body, release: ReleasePose) -> None:
-        """Let the base move as the roller leaves it; Bullet wants the velocity of its centre of mass."""
-        spin = np.array([0.0, release.body_rad_s, 0.0])
-        velocity = release.body_m_s + np.cross(spin, rotation_about_y(release.body_pitch_rad) @ base.com_m)
-        self.bullet.resetBaseVelocity(self.number, velocity.tolist(), spin.tolist(), physicsClientId=self.client)
 
     def _set_dynamics(self, settings: Settings, rubs: Coefficients, bodies: list[Body]) -> None:
         """Set inertia and friction of every link, then what Bullet would apply to the base if set with these."""

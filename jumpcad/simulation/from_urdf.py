@@ -22,21 +22,8 @@ from jumpcad.exporters.steered import STEER, WHEEL
 from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import shown
 from jumpcad.files.records import LONGEST_TEXT, control_character
+from jumpcad.mechanism import model
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import (
-    BODY,
-    BODY_NAMES,
-    Body,
-    ContactSphere,
-    Friction,
-    Joint,
-    Loop,
-    Mechanism,
-    RollerOff,
-    Spring,
-    Stop,
-    five_bar,
-)
 from jumpcad.mechanism.planar import points
 from jumpcad.transforms import Array, pose_at
 
@@ -54,7 +41,7 @@ SAME = 1e-6
 """By how much the mechanism of the URDF may differ from its design's (m, rad)."""
 
 
-def robot_from_urdf(path: Path) -> Mechanism:
+def robot_from_urdf(path: Path) -> model.Mechanism:
     """Return the mechanism of a URDF file that `jumpcad build` wrote."""
     beside = path.with_suffix(".loop.json")
     content, data = read_bytes(path, "a URDF file"), read_json(beside)
@@ -66,17 +53,17 @@ def robot_from_urdf(path: Path) -> Mechanism:
     with _named_file(path):
         root = _parsed(content)
         wheel = _taken_wheel(root)
-        links, joints = _named(root, "link", BODY_NAMES), _named(root, "joint", JOINTS)
+        links, joints = _named(root, "link", model.BODY_NAMES), _named(root, "joint", JOINTS)
         loop = extra.loop
-        mechanism = Mechanism(
+        mechanism = model.Mechanism(
             name=_text(root, "name"), design=design,
-            bodies={name: _body(links[name], extra.surfaces, wheel) for name in BODY_NAMES},
+            bodies={name: _body(links[name], extra.surfaces, wheel) for name in model.BODY_NAMES},
             joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
-            loops=(Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
-            springs=(Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
-            stop=Stop(**extra.stop.model_dump()) if extra.stop else None,
-            roller_off=RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
-            friction=Friction(**extra.friction.model_dump()) if extra.friction else None,
+            loops=(model.Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
+            springs=(model.Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
+            stop=model.Stop(**extra.stop.model_dump()) if extra.stop else None,
+            roller_off=model.RollerOff(**extra.roller_off.model_dump()) if extra.roller_off else None,
+            friction=model.Friction(**extra.friction.model_dump()) if extra.friction else None,
             outline_m={name: points(np.array(corners)) for name, corners in extra.outline_m.items()},
         )  # fmt: skip
         _require_mechanism(mechanism)
@@ -136,7 +123,7 @@ def _taken_wheel(root: ET.Element) -> MassProperties | None:
     return MassProperties(wheel.mass_kg, wheel.com_m, wheel.inertia_kg_m2).placed(place)
 
 
-def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | None = None) -> Body:
+def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | None = None) -> model.Body:
     name = _text(link, "name")
     inertial = _child(link, "inertial", name)
     com_m, rpy = _origin(inertial, name)
@@ -159,8 +146,8 @@ def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | No
     if len({contact.name for contact in contacts}) < len(contacts):
         raise JumpcadError(f"{name}: two collisions have the same name")
     mass = MassProperties(mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes))
-    mass = combined([mass, wheel]) if wheel and name == BODY else mass
-    return Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
+    mass = combined([mass, wheel]) if wheel and name == model.BODY else mass
+    return model.Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
 
 
 def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
@@ -180,17 +167,17 @@ def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:
         )
 
 
-def _contact(item: ET.Element, body: str, surfaces: dict[str, Any]) -> ContactSphere:
+def _contact(item: ET.Element, body: str, surfaces: dict[str, Any]) -> model.ContactSphere:
     name = _text(item, "name")
     place = f"{body}: collision {shown(name)}"
     if name not in surfaces:
         raise JumpcadError(f"{place}: has no surface in the loop file")
     centre_m, _ = _origin(item, place)
     sphere = _child(_child(item, "geometry", place), "sphere", place)
-    return ContactSphere(name, centre_m, _number(sphere, "radius", place, 1e-6, LARGEST_M), surfaces[name])
+    return model.ContactSphere(name, centre_m, _number(sphere, "radius", place, 1e-6, LARGEST_M), surfaces[name])
 
 
-def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
+def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> model.Joint:
     name = _text(node, "name")
     place = f"joint {name}"
     axis = _numbers(_child(node, "axis", place), "xyz", 3)
@@ -198,7 +185,7 @@ def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
     if node.get("type") != "revolute" or not np.array_equal(axis, (0, 1, 0)) or roll or yaw:
         raise JumpcadError(f"{place}: must be revolute about the axis 0 1 0, and its rpy 0 ANGLE 0")
     limit = _child(node, "limit", place)
-    return Joint(
+    return model.Joint(
         name=name, parent=_text(_child(node, "parent", place), "link"),
         child=_text(_child(node, "child", place), "link"), origin_m=origin_m, rest_angle_rad=float(pitch),
         lower_rad=travel_rad[0], upper_rad=travel_rad[1],
@@ -207,9 +194,9 @@ def _joint(node: ET.Element, travel_rad: tuple[float, float]) -> Joint:
     )  # fmt: skip
 
 
-def _require_mechanism(mechanism: Mechanism) -> None:
+def _require_mechanism(mechanism: model.Mechanism) -> None:
     """Reject a tree and a loop that are not those of the design, which gives the pose at release."""
-    joints, loop, _ = five_bar(mechanism.linkage, (-mechanism.design.compression_rad, 0.0))
+    joints, loop, _ = model.five_bar(mechanism.linkage, (-mechanism.design.compression_rad, 0.0))
     for joint in joints:
         read = mechanism.joint(joint.name)
         off = max(np.abs(read.origin_m - joint.origin_m).max(), abs(read.rest_angle_rad - joint.rest_angle_rad))

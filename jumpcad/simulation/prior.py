@@ -76,5 +76,4 @@ def sobol(dimension: int, count: int, generator: np.random.Generator) -> Array:
     """
     from scipy.stats import qmc  # takes half a second to import; most processes of a search need no points
 
-    points: Array = qmc.Sobol(dimension, seed=generator).random(count)
-    return points
+    return np.asarray(qmc.Sobol(dimension, seed=generator).random(count))

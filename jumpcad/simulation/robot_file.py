@@ -21,20 +21,8 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.errors import JumpcadError
 from jumpcad.files import Contradiction, Record, TomlTable, read_toml
 from jumpcad.files.records import Name
+from jumpcad.mechanism import model
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import (
-    BODY_NAMES,
-    JOINT_SPEED_RAD_S,
-    Body,
-    ContactSphere,
-    Friction,
-    Joint,
-    Loop,
-    Mechanism,
-    Multibody,
-    Spring,
-    Stop,
-)
 from jumpcad.mechanism.variants import capsule, capsule_robot
 from jumpcad.simulation.from_urdf import robot_from_urdf
 from jumpcad.transforms import Array
@@ -88,14 +76,14 @@ class OwnBody(TomlTable):
     rods: Annotated[tuple[Rod, ...], MANY] = ()
     contacts_mm: Annotated[tuple[Contact, ...], MANY] = ()
 
-    def body(self, name: str, contacts: tuple[ContactSphere, ...]) -> Body:
+    def body(self, name: str, contacts: tuple[model.ContactSphere, ...]) -> model.Body:
         """Return the body; motion in the plane depends on the inertia about y alone, the others are set like it."""
         items = [rod.mass for rod in self.rods]
         if self.mass_g is not None and self.inertia_gmm2 is not None:
             inertia = self.inertia_gmm2 * 1e-9 * np.eye(3)
             items.append(MassProperties(self.mass_g / 1000.0, _point(self.centre_mm), inertia))
         whole = combined(items)
-        return Body(name, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
+        return model.Body(name, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
 
 
 class SpringTable(TomlTable):
@@ -192,8 +180,8 @@ class RobotFile(Record):
             reason = "has keys of the other kind: [design] is of a five-bar, [[joints]] and [[springs]] of a chain"
             yield ("design",), "a five-bar" if five_bar else "none", reason
         elif five_bar:
-            if sorted(self.bodies) != sorted(BODY_NAMES):
-                yield ("bodies",), ", ".join(self.bodies), f"a five-bar's are {', '.join(BODY_NAMES)}"
+            if sorted(self.bodies) != sorted(model.BODY_NAMES):
+                yield ("bodies",), ", ".join(self.bodies), f"a five-bar's are {', '.join(model.BODY_NAMES)}"
             if self.foot.radius_mm is None:
                 yield ("foot", "radius_mm"), None, "give the radius of what touches the ground"
         else:
@@ -237,7 +225,7 @@ def is_robot_file(path: Path) -> bool:
 
 
 @check_arguments
-def load_robot(path: str | Path) -> Multibody:
+def load_robot(path: str | Path) -> model.Multibody:
     """Return the robot of a file that gives its bodies: a URDF with its loop file, or a TOML file.
 
     Raises
@@ -258,7 +246,7 @@ def load_robot(path: str | Path) -> Multibody:
         raise JumpcadError(f"{path}: {error}") from None
 
 
-def five_bar_robot(file: RobotFile) -> Mechanism:
+def five_bar_robot(file: RobotFile) -> model.Mechanism:
     """Return the five-bar of a file, whose masses are not compared with the stated one."""
     capsules, foot = capsule_robot(Design(**(file.design or {}))), file.foot
     spring = replace(
@@ -280,40 +268,40 @@ def five_bar_robot(file: RobotFile) -> Mechanism:
     stop = file.stop
     return replace(
         capsules, name=file.name, bodies=bodies, springs=(spring,), foot_depth_m=radius_m,
-        stop=Stop("leg", math.radians(stop.angle_deg), _per_rad(stop.stiffness_nmm_per_deg)) if stop else None,
-        friction=Friction(foot.friction, foot.body_friction, pin, (leg, front, ankle, eye)),
+        stop=model.Stop("leg", math.radians(stop.angle_deg), _per_rad(stop.stiffness_nmm_per_deg)) if stop else None,
+        friction=model.Friction(foot.friction, foot.body_friction, pin, (leg, front, ankle, eye)),
     )  # fmt: skip
 
 
-def _chain(file: RobotFile) -> Multibody:
+def _chain(file: RobotFile) -> model.Multibody:
     foot = file.foot
     bodies = {}
     for name, body in file.bodies.items():
         contacts = tuple(
-            ContactSphere(f"{number}", _point((x, z)), radius / 1000.0, "foot" if name == foot.body else "body")
+            model.ContactSphere(f"{number}", _point((x, z)), radius / 1000.0, "foot" if name == foot.body else "body")
             for number, (x, z, radius) in enumerate(body.contacts_mm)
         )
         bodies[name] = body.body(name, contacts)
-    return Multibody(
+    return model.Multibody(
         file.name,
         bodies,
         tuple(
-            Joint(one.name, one.parent, one.child, _point(one.at_mm), math.radians(one.rest_deg),
-                  math.radians(low), math.radians(high), 0.0, JOINT_SPEED_RAD_S, one.friction_nmm / 1000.0,
+            model.Joint(one.name, one.parent, one.child, _point(one.at_mm), math.radians(one.rest_deg),
+                  math.radians(low), math.radians(high), 0.0, model.JOINT_SPEED_RAD_S, one.friction_nmm / 1000.0,
                   one.range_deg is not None, None if one.loaded_deg is None else math.radians(one.loaded_deg))
             for one in file.joints
             for low, high in [one.range_deg or (-math.inf, math.inf)]
         ),
-        tuple(Loop(one.body_a, _point(one.point_a_mm), one.body_b, _point(one.point_b_mm)) for one in file.loops),
+        tuple(model.Loop(one.body_a, _point(one.point_a_mm), one.body_b, _point(one.point_b_mm)) for one in file.loops),
         tuple(
-            Spring(one.joint, _per_rad(one.stiffness_nmm_per_deg), 0.0, math.radians(one.free_deg))
+            model.Spring(one.joint, _per_rad(one.stiffness_nmm_per_deg), 0.0, math.radians(one.free_deg))
             for one in file.springs
         ),
-        friction=Friction(foot.friction, foot.body_friction),
+        friction=model.Friction(foot.friction, foot.body_friction),
     )  # fmt: skip
 
 
-def _require_plausible(file: RobotFile, robot: Multibody) -> None:
+def _require_plausible(file: RobotFile, robot: model.Multibody) -> None:
     """Reject masses that do not add up, and masses, inertias and energies in a wrong unit."""
     total_g = 1000.0 * robot.mass_kg
     if file.mass_g is not None and abs(total_g / file.mass_g - 1.0) > ADDS_UP_SHARE:

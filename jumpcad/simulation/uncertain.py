@@ -22,16 +22,8 @@ from jumpcad.mechanism.model import BODY, Mechanism
 from jumpcad.mechanism.variants import with_length_errors, with_lengths, with_spring_factor
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.settings import Settings, coefficients
+from jumpcad.simulation import prior as priors
 from jumpcad.simulation.planar import touchdown
-from jumpcad.simulation.prior import (
-    FLOOR_SHARE,
-    PIN_FRICTION,
-    PRINTED_MASS_SHARE,
-    QUANTILES,
-    SPRING_EFFICIENCY,
-    Prior,
-    sobol,
-)
 from jumpcad.simulation.simulator import divided, simulate
 from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import Array, ByValue
@@ -89,7 +81,7 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     the settings, its priors are used, about the efficiency of springs and the friction of pins and floor that they
     give.
     """
-    points = sobol(INPUTS + (not settings.draws), samples, np.random.default_rng(seed))
+    points = priors.sobol(INPUTS + (not settings.draws), samples, np.random.default_rng(seed))
     inputs = varied_inputs(robot, settings, np.clip(points, EDGE, 1.0 - EDGE))
     rows = ({name: values[row] for name, values in inputs.items()} for row in range(samples))
     figures = np.array([_jump(robot, settings, engine, values) for values in rows])
@@ -98,7 +90,7 @@ def uncertain_jump(robot: Robot, settings: Settings, engine: str, seed: int = 0,
     low, high = np.quantile(np.array(again), (0.1, 0.9), axis=0)
     shares = _first_order(inputs, figures, np.arange(samples))
     return Uncertainty(
-        {name: np.quantile(figures[:, k], QUANTILES).tolist() for k, name in enumerate(FIGURES)},
+        {name: np.quantile(figures[:, k], priors.QUANTILES).tolist() for k, name in enumerate(FIGURES)},
         {name: dict(zip(FIGURES, shares[g].tolist(), strict=True)) for g, name in enumerate(inputs)},
         {
             name: {figure: [float(low[g, k]), float(high[g, k])] for k, figure in enumerate(FIGURES)}
@@ -146,7 +138,7 @@ def robust_figures(robot: Mechanism, settings: Settings, rate_scatter: float) ->
         given = (
             {}
             if settings.ground_friction is not None
-            else {"ground_friction": usual.ground * math.exp(2.0 * FLOOR_SHARE * point[7])}
+            else {"ground_friction": usual.ground * math.exp(2.0 * priors.FLOOR_SHARE * point[7])}
         )
         try:
             made = with_lengths(made, with_length_errors(design, errors_mm * point[:4]))
@@ -159,7 +151,7 @@ def robust_figures(robot: Mechanism, settings: Settings, rate_scatter: float) ->
 
     ways, pitches = np.array([landed(point) for point in _differences()]).T
     return {
-        ROBUST_TOUCHDOWN: float(np.quantile(ways, QUANTILES[0], method="lower")),
+        ROBUST_TOUCHDOWN: float(np.quantile(ways, priors.QUANTILES[0], method="lower")),
         ROBUST_PITCH: float(np.abs(pitches).max()),
     }
 
@@ -167,7 +159,7 @@ def robust_figures(robot: Mechanism, settings: Settings, rate_scatter: float) ->
 @cache
 def _differences() -> Array:
     """Return even points (ROBUST_JUMPS, 8) of the cube from -1 to 1."""
-    return 2.0 * sobol(8, ROBUST_JUMPS, np.random.default_rng(0)) - 1.0
+    return 2.0 * priors.sobol(8, ROBUST_JUMPS, np.random.default_rng(0)) - 1.0
 
 
 def _first_order(inputs: dict[str, Array], figures: Array, rows: npt.NDArray[np.intp]) -> Array:
@@ -200,15 +192,16 @@ def varied_inputs(robot: Robot, settings: Settings, points: Array) -> dict[str, 
         pairs = np.column_stack([draws.spring_efficiency, draws.pin_friction])
         calibrated = pairs[np.minimum((first[0] * len(pairs)).astype(int), len(pairs) - 1)]
     else:
-        efficiency, given = SPRING_EFFICIENCY, settings.spring_efficiency
+        efficiency, given = priors.SPRING_EFFICIENCY, settings.spring_efficiency
         if given != Settings().spring_efficiency:
-            efficiency = replace(SPRING_EFFICIENCY, first=given, source="settings", least=0.1)
-        pins = Prior("lognormal", rubs.pin, PIN_FRICTION.second, "workshop")
+            efficiency = replace(priors.SPRING_EFFICIENCY, first=given, source="settings", least=0.1)
+        pins = priors.Prior("lognormal", rubs.pin, priors.PIN_FRICTION.second, "workshop")
         calibrated = np.column_stack([efficiency.at(ndtri(first[0])), pins.at(ndtri(first[1]))])
+    rate = priors.Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)
     single = {
-        "springs": (springs, Prior("normal", 1.0, workshop.safety.spring_rate_scatter / 2.0, "workshop", 0.3)),
-        "mass": (mass, Prior("normal", 1.0, PRINTED_MASS_SHARE, "model", 0.3)),
-        "floor": (floor, Prior("lognormal", rubs.ground, FLOOR_SHARE, "workshop")),
+        "springs": (springs, rate),
+        "mass": (mass, priors.Prior("normal", 1.0, priors.PRINTED_MASS_SHARE, "model", 0.3)),
+        "floor": (floor, priors.Prior("lognormal", rubs.ground, priors.FLOOR_SHARE, "workshop")),
     }
     lengths = workshop.fits.link_tolerance_mm * (2.0 * np.column_stack(first[-4:]) - 1.0)
     others = {name: prior.at(ndtri(share))[:, None] for name, (share, prior) in single.items()}

@@ -60,8 +60,7 @@ def _chains(contours_mm: Sequence[Sequence[Floats]]) -> tuple[Ints, Ints, Ints]:
             starts.append(snapped)
             ends.append(np.roll(snapped, -1, axis=0))
             owner.append(np.full(len(snapped), slab))
-    corners = np.concatenate([*starts, *ends])
-    points, index = _unique(corners)
+    points, index = _unique(np.concatenate([*starts, *ends]))
     edges = index.reshape(2, -1).T
     signs = np.zeros((len(edges), len(contours_mm)), dtype=np.int64)
     signs[np.arange(len(edges)), np.concatenate(owner)] = 1

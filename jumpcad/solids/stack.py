@@ -130,11 +130,6 @@ class Stack:
         areas = areas_moments([slab.region for slab in self.slabs])
         return prism_moments(areas, [slab.z0_mm for slab in self.slabs], [slab.z1_mm for slab in self.slabs])
 
-    @property
-    def volume_mm3(self) -> float:
-        """Volume (mm³)."""
-        return float(self.moments[0])
-
     def mass_properties(self, density_g_cm3: float) -> MassProperties:
         """Return the mass properties of the stack printed solid, in its own frame (kg, m)."""
         return mass_of(self.moments, density_g_cm3)

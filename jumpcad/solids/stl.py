@@ -1,7 +1,6 @@
 """From a solid to its mesh and its STL file: binary, in mm, in printing orientation; and the check of such a file."""
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from manifold3d import Manifold
@@ -9,9 +8,7 @@ from scipy import sparse
 from scipy.sparse import csgraph
 
 from jumpcad.errors import CannotBuildError
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Trimesh
 
 TOLERANCE_MM = 1e-3
 HEADER_BYTES = 84
@@ -26,7 +23,7 @@ def finished(solid: Manifold) -> Manifold:
     return solid.set_tolerance(TOLERANCE_MM).as_original().simplify(TOLERANCE_MM)
 
 
-def to_trimesh(solid: Manifold) -> "trimesh.Trimesh":
+def to_trimesh(solid: Manifold) -> Trimesh:
     """Return a solid as a mesh (mm) with the same vertices, at full precision."""
     import trimesh  # takes 0.3 s, and masses need no mesh
 
@@ -72,13 +69,10 @@ def require_part(name: str, stl: bytes) -> None:
         raise CannotBuildError(f"part {name} cannot be printed: {', '.join(found)}: thicken it where it is thinnest")
 
 
-if TYPE_CHECKING:
-    import trimesh
-
 HEADER = b"jumpcad, millimetres".ljust(80)  # must not begin with "solid", which marks text files
 
 
-def write_stl(mesh: "trimesh.Trimesh") -> bytes:
+def write_stl(mesh: Trimesh) -> bytes:
     """Return the STL file of a mesh (mm); the same mesh gives the same bytes.
 
     `jumpcad.solids.stl.faults` checks that a file is one printable part.

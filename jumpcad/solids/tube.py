@@ -1,14 +1,10 @@
 """Bent wire as a mesh: a tube of few facets along a line (mm)."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from jumpcad.transforms import Array, ByValue
-
-if TYPE_CHECKING:
-    import trimesh
+from jumpcad.transforms import Array, ByValue, Trimesh
 
 SIDES = 8
 """Of a tube's section; judgement: it looks round beside parts of its size."""
@@ -25,7 +21,7 @@ class DrawnWire(ByValue):
         return hash((self.points_mm.tobytes(), self.diameter_mm))
 
 
-def tube(points_mm: Array, diameter_mm: float) -> "trimesh.Trimesh":
+def tube(points_mm: Array, diameter_mm: float) -> Trimesh:
     """Return a closed mesh along points (n, 3) that make no sharp bend; its facets lie within the round wire.
 
     Each section stands square to the line. The sections' first directions follow one another without a twist, by

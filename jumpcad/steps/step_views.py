@@ -13,7 +13,7 @@ from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
 from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Move, Step, assembly_steps, travel
 from jumpcad.steps.step_insets import BEHIND, INSETS, Inset
-from jumpcad.transforms import Array, chained, pose_at
+from jumpcad.transforms import Array, chained
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
 """From the left, from where parts are put on the axles."""
@@ -143,7 +143,9 @@ def _view(
     if inset is not None:
         things = [thing for thing in things if re.fullmatch(inset.shown, thing.name)]
     new = {thing.name for thing in added}
-    at = [_shifted(_at_place(thing, poses), moved.get(thing.name)) for thing in things]
+    at = [_at_place(thing, poses) for thing in things]
+    for pose, thing in zip(at, things, strict=True):
+        pose[:3, 3] += moved.get(thing.name, 0.0)
     framed = [
         index for index, thing in enumerate(things)
         if (re.fullmatch(inset.framed, thing.name) if inset else thing.name in new or not new)
@@ -252,10 +254,6 @@ def _beside(one: Array, other: Array, way: Array) -> bool:
         if a.min() >= b.max() or b.min() >= a.max():
             return False
     return True
-
-
-def _shifted(pose: Array, by_m: Array | None) -> Array:
-    return pose if by_m is None else pose_at(pose[:3, :3], pose[:3, 3] + by_m)
 
 
 def _labels(

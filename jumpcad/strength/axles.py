@@ -133,11 +133,7 @@ def mesh_force_n(torque_nmm: float, pair: GearPair, wheel_mm: Array, pinion_mm: 
     """Return the force (2,) of a pinion's teeth on the wheel that it drives.
 
     T over the wheel's base radius along the line of action: the wheel is pushed in its sense of rotation, and away from
-    the pinion (Shigley 13-14).
-
-    - `torque_nmm`, `pair`: Torque on the wheel, and the gears.
-    - `wheel_mm`, `pinion_mm`: Both axes (2,), x-z.
-    - `sense`: 1 for a wheel that turns positively about +y, -1 for the other way.
+    the pinion (Shigley 13-14). The sense is 1 for a wheel that turns positively about +y, -1 for the other way.
     """
     away = (wheel_mm - pinion_mm) / np.linalg.norm(wheel_mm - pinion_mm)
     along = sense * np.array([-away[1], away[0]])

@@ -105,15 +105,14 @@ def loaded_forces_n(design: Design, drive: Drive) -> tuple[Array, Array]:
     spring = drive.spring
     outwards = direction(-(spring.leg_pin_rad + design.compression_rad - spring.arms.turn_rad))
     on_leg = 2.0 * spring.pin_force_n * outwards
-    lever = drive.cam.lever_start_rad + design.compression_rad
+    lever = drive.cam.geometry.lever_start_rad + design.compression_rad
     return on_leg, drive.cam.peak_contact_n * np.array([-math.sin(lever), math.cos(lever)])
 
 
 def bearing_load_n(forces_n: tuple[Array, Array], leg_mm: float, roller_mm: float, bearing: Bearing) -> float:
-    """Return the load of the more heavily loaded of two bearings.
+    """Return the load of the more heavily loaded of two bearings under `loaded_forces_n`, the arms' amid the hub.
 
-    - `forces_n`: Of the springs' arms, in the middle of the hub, and of the cam, as `loaded_forces_n` returns them.
-    - `leg_mm`, `roller_mm`: Width of the leg, which may have to grow for the bearings, and of the roller beside it.
+    The leg's width may have to grow for the bearings; the roller is beside it.
     """
     arms, cam = forces_n
     width = max(leg_mm, hub_width_mm(bearing))

@@ -39,12 +39,9 @@ class MovingMass:
 class PushOffForces:
     """Forces at n leg angles from release to rest; zero from take-off on. Vectors (n, 2) are x-z on a flat foot.
 
-    - `leg_rad`: Leg angles (n,), from loaded springs to 0.
-    - `ground_n`: Force of the ground on the foot (n, 2).
-    - `ankle_n`: Force of the foot on the main leg (n, 2).
-    - `front_eye_n`: Force of the foot on the front link (n, 2).
-    - `leg_axial_n`, `front_n`: Compression (n,) of the main leg and of the front link; negative is tension.
-    - `residual_n`: Imbalance of forces and torques on the body (n,): the error of the finite differences.
+    `ground_n` is the ground's on the foot, `ankle_n` and `front_eye_n` the foot's on main leg and front link;
+    `leg_axial_n` and `front_n` are their compression, negative in tension; `residual_n` is the imbalance of forces and
+    torques on the body: the error of the finite differences.
     """
 
     leg_rad: Array
@@ -123,8 +120,7 @@ def toe_load_n(forces: PushOffForces, design: Design, foot_depth_mm: float) -> A
     back, _ = toe_reach_mm(design)
     centre_of_pressure = (design.l4_mm * forces.front_eye_n[:, 1] - foot_depth_mm * along) / np.where(up > 0.0, up, 1.0)
     share = np.clip((design.l4_mm - centre_of_pressure) / (design.l4_mm + back), 0.0, 1.0)
-    load: Array = share * up
-    return load
+    return np.asarray(share * up)
 
 
 def _moment(arm: Array, force: Array) -> Array:

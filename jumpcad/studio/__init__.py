@@ -2,5 +2,3 @@
 
 from jumpcad.studio.app import Studio as Studio
 from jumpcad.studio.points import Points as Points
-
-__all__ = ["Points", "Studio"]

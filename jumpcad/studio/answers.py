@@ -108,11 +108,10 @@ def printed_answer(design: Design, workshop: Workshop, name: str = "robot") -> P
 
 @dataclass(frozen=True)
 class ShownMoment:
-    """What is shown at one time.
+    """What is shown at one time: `frames` are position (m) and quaternion xyzw of the bodies by name.
 
-    `frames` are position (m) and quaternion xyzw of the bodies by name, `turned_rad` the angles of the turning parts
-    from rest; `phase` and `real_s` say where in the motion it is, `slower` how many times slower than real time it is
-    shown.
+    `turned_rad` are the angles of the turning parts from rest; `phase` and `real_s` say where in the motion it is,
+    `slower` how many times slower than real time it is shown.
     """
 
     frames: dict[str, Array]

@@ -171,7 +171,6 @@ class Studio:
         return playback(self.shown.robot)
 
     def _say_part(self, name: str) -> None:
-        """Show what a part of the robot is."""
         if self.shown is not None and self.shown.robot is not None:
             facts = parts_facts(self.shown.robot)[name]
             file = f", {facts['file']}" if facts["file"] else ""

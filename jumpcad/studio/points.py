@@ -67,7 +67,6 @@ class Points:
         return self.trials[number - 1]
 
     def workshop_of(self, trial: Trial) -> Workshop:
-        """Return the workshop in which a trial's robot was made."""
         if not trial.workshop:
             return self.workshop
         return PrintedModel(workshop=self.workshop).varied(trial.workshop).workshop or self.workshop

@@ -119,10 +119,7 @@ class StudioStage:
         _give(self.frames[frame], position=(x, y, z), wxyz=(qw, qx, qy, qz))
 
     def _put(self, tree: str, things: tuple[Visual, ...], wrong: frozenset[str] = frozenset()) -> int:
-        """Show parts below a tree, and remove the tree's others; return how many meshes were sent.
-
-        A part whose mesh is the same is moved and coloured, not sent again.
-        """
+        """Show parts below a tree, and remove others; return how many meshes were sent: those that are not the same."""
         names = {_node(tree, one): one for one in things}
         for name in [name for name in self.meshes if name.startswith(f"/{tree}/") and name not in names]:
             self.meshes.pop(name)[1].remove()

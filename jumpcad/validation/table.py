@@ -79,7 +79,7 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
         ("kovac-2010", "bound", lambda robot, _: _bound(robot, epfl, members)),
         ("flea-2013", "efficiency", _efficiency),
         ("clover-2022", "efficiency", _efficiency),
-        *((key, "left out", _nothing) for key, robot in facts.robots.items() if robot.reason),
+        *((key, "left out", lambda *_: ()) for key, robot in facts.robots.items() if robot.reason),
     ]
     found: list[dict[str, Any]] = []
     for key, tier, table in tables:
@@ -104,9 +104,7 @@ def _row(robot: RobotFacts, name: str, values: npt.ArrayLike, how: str, of: tupl
          kind: str = "") -> Row:  # fmt: skip
     """Return the row of a figure, computed (n,) from the figures `of` the robot."""
     row = _compared(name, robot.figures[name], values, TOLERANCE[kind or name], how)
-    if not robot.sure(name, *of):
-        return replace(row, verdict="not judged")
-    return row
+    return row if robot.sure(name, *of) else replace(row, verdict="not judged")
 
 
 def _compared(name: str, figure: Figure, values: npt.ArrayLike, tolerance: float | None, how: str) -> Row:
@@ -207,10 +205,6 @@ def _efficiency(robot: RobotFacts, _: np.random.Generator) -> list[Row]:
     """Return the measured efficiency, beside which nothing is computed."""
     figure = robot.figures["efficiency"]
     return [Row("efficiency", figure.value, figure.confidence, figure.source)]
-
-
-def _nothing(*_: Any) -> list[Row]:
-    return []
 
 
 def _flights(

@@ -123,7 +123,6 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list
 
 
 def _of_kit(name: Any, source: str, text: str) -> dict[str, Any]:
-    """Return the names of the parts of a kit."""
     kits = load_catalogue().kits
     if not isinstance(name, str) or name not in kits:
         hint = did_you_mean(name, kits) if isinstance(name, str) else ""

@@ -22,7 +22,6 @@ class Slot:
     others: tuple[str, ...] = ()
 
     def fitting(self, catalogue: Catalogue) -> list[str]:
-        """Return the names of the parts that fit."""
         parts = getattr(catalogue, self.table)
         return [name for name, part in parts.items() if _fits(part, self.word)]
 
@@ -69,9 +68,7 @@ SLOTS = {
 
 def _kinds(part: object) -> tuple[str, ...]:
     """Return what a part can be used as, where parts of its table differ in that; empty if that is not known."""
-    if isinstance(part, Component):
-        return (part.kind,)
-    return part.uses if isinstance(part, Board) else ()
+    return (part.kind,) if isinstance(part, Component) else part.uses if isinstance(part, Board) else ()
 
 
 def _fits(part: object, word: str) -> bool:

@@ -229,7 +229,6 @@ class Ground(TomlTable):
 
     @property
     def foot_friction(self) -> float:
-        """Friction of the feet on the floor."""
         return self.friction if self.pad else self.bare_friction
 
 

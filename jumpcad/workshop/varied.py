@@ -1,6 +1,6 @@
 """A workshop with some of its values changed, each named by a dotted key such as `body.plate_mm`."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from jumpcad.arguments import check_arguments
@@ -77,14 +77,10 @@ def _varies(key: str, value: Any) -> bool:
     return isinstance(value, int | float | str) and key.split(".")[-1] not in WORDS
 
 
-def leaves(table: Mapping[str, Any]) -> dict[str, Any]:
+def leaves(table: Mapping[str, Any], start: str = "") -> dict[str, Any]:
     """Return what is no table, by dotted key."""
-
-    def walk(part: Mapping[str, Any], start: str) -> Iterator[tuple[str, Any]]:
-        for name, value in part.items():
-            if isinstance(value, dict):
-                yield from walk(value, f"{start}{name}.")
-            else:
-                yield f"{start}{name}", value
-
-    return dict(walk(table, ""))
+    found: dict[str, Any] = {}
+    for name, value in table.items():
+        key = f"{start}{name}"
+        found |= leaves(value, f"{key}.") if isinstance(value, dict) else {key: value}
+    return found

@@ -12,44 +12,12 @@ from typing import Literal
 
 from pydantic import Field
 
-from jumpcad.catalogue import (
-    Article,
-    Battery,
-    Bearing,
-    Board,
-    CageRod,
-    Catalogue,
-    LegBar,
-    Motor,
-    OwnParts,
-    Pad,
-    StockSpring,
-    load_catalogue,
-)
+from jumpcad import catalogue as parts
 from jumpcad.dimensions import DOG_PLAY_MIN_DEG
 from jumpcad.files import Contradiction, Record, to_toml
 from jumpcad.files.records import Name
+from jumpcad.workshop import tables
 from jumpcad.workshop.slots import SLOTS
-from jumpcad.workshop.tables import (
-    BodyPlates,
-    BoughtParts,
-    CageTable,
-    Fits,
-    Ground,
-    Masses,
-    Material,
-    Pins,
-    Price,
-    Printer,
-    Process,
-    ReleaseTable,
-    Roles,
-    Safety,
-    Seats,
-    SpringTable,
-    SteeringTable,
-    StrengthTable,
-)
 
 Role = Literal["links", "body", "gears"]
 MAX_LAYER_PER_NOZZLE = 0.8  # a thicker layer is no longer pressed onto the one below (common rule of slicers)
@@ -69,59 +37,58 @@ class Workshop(Record):
     `bearings`, `batteries`, `boards`, `springs` and `pads` are the user's own parts alone.
     """
 
-    printer: Printer
-    process: Process
-    roles: Roles
-    materials: dict[Name, Material]
-    fits: Fits
-    bought: BoughtParts
-    body: BodyPlates
-    cage: CageTable
-    steering: SteeringTable
-    seats: Seats
-    ground: Ground
-    pins: Pins
-    spring: SpringTable
-    release: ReleaseTable
-    safety: Safety
-    strength: StrengthTable
-    mass: Masses
-    prices_eur: dict[Name, Price]
-    motors: OwnParts[Motor] = Field(default_factory=dict)
-    bearings: OwnParts[Bearing] = Field(default_factory=dict)
-    batteries: OwnParts[Battery] = Field(default_factory=dict)
-    boards: OwnParts[Board] = Field(default_factory=dict)
-    springs: OwnParts[StockSpring] = Field(default_factory=dict)
-    pads: OwnParts[Pad] = Field(default_factory=dict)
+    printer: tables.Printer
+    process: tables.Process
+    roles: tables.Roles
+    materials: dict[Name, tables.Material]
+    fits: tables.Fits
+    bought: tables.BoughtParts
+    body: tables.BodyPlates
+    cage: tables.CageTable
+    steering: tables.SteeringTable
+    seats: tables.Seats
+    ground: tables.Ground
+    pins: tables.Pins
+    spring: tables.SpringTable
+    release: tables.ReleaseTable
+    safety: tables.Safety
+    strength: tables.StrengthTable
+    mass: tables.Masses
+    prices_eur: dict[Name, tables.Price]
+    motors: parts.OwnParts[parts.Motor] = Field(default_factory=dict)
+    bearings: parts.OwnParts[parts.Bearing] = Field(default_factory=dict)
+    batteries: parts.OwnParts[parts.Battery] = Field(default_factory=dict)
+    boards: parts.OwnParts[parts.Board] = Field(default_factory=dict)
+    springs: parts.OwnParts[parts.StockSpring] = Field(default_factory=dict)
+    pads: parts.OwnParts[parts.Pad] = Field(default_factory=dict)
 
     @property
-    def catalogue(self) -> Catalogue:
+    def catalogue(self) -> parts.Catalogue:
         """The shipped catalogue with the user's own parts."""
-        return load_catalogue().with_own({kind: getattr(self, kind) for kind in OWN_PARTS})
+        return parts.load_catalogue().with_own({kind: getattr(self, kind) for kind in OWN_PARTS})
 
     @property
-    def stock_spring(self) -> StockSpring | None:
+    def stock_spring(self) -> parts.StockSpring | None:
         """The springs from stock, or None where they are made to order."""
         return self.catalogue.springs[self.bought.spring] if self.bought.spring else None
 
     @property
-    def leg_bar(self) -> LegBar | None:
+    def leg_bar(self) -> parts.LegBar | None:
         """The bar of main leg and front link, or None where they are printed whole."""
         return self.catalogue.bars[self.bought.leg] if self.bought.leg else None
 
     @property
-    def cage_rod(self) -> CageRod | None:
+    def cage_rod(self) -> parts.CageRod | None:
         """The rod of the cage, or None without one."""
         return self.catalogue.cage_rods[self.cage.rod] if self.cage.rod else None
 
     @property
-    def foot_pad(self) -> Pad | None:
+    def foot_pad(self) -> parts.Pad | None:
         """The pad under nose and toes, or None where the feet are bare."""
         return self.catalogue.pads[self.ground.pad] if self.ground.pad else None
 
     @property
-    def stop_pad(self) -> Pad:
-        """The pad of the rest stop."""
+    def stop_pad(self) -> parts.Pad:
         return self.catalogue.pads[self.body.stop_pad]
 
     def __repr__(self) -> str:
@@ -132,8 +99,7 @@ class Workshop(Record):
         """Return the name of the material that a kind of part is printed in."""
         return str(getattr(self.roles, role))
 
-    def material(self, role: Role) -> Material:
-        """Return the material that a kind of part is printed in."""
+    def material(self, role: Role) -> tables.Material:
         return self.materials[self.material_name(role)]
 
     def to_toml(self) -> str:
@@ -201,10 +167,9 @@ class Workshop(Record):
                     yield (table, name), one, reason
 
 
-def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Contradiction]:
-    """Yield what is wrong with the user's own parts of a kind."""
-    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
-    for key, part in parts.items():
+def _own_contradictions(kind: str, own: Mapping[str, parts.Article]) -> Iterator[Contradiction]:
+    shipped: Mapping[str, parts.Article] = getattr(parts.load_catalogue(), kind, {})
+    for key, part in own.items():
         if key in shipped:
             reason = f'is the name of a shipped part: choose another one, and like = "{key}" takes its figures over'
             yield (kind, key), key, reason
@@ -214,7 +179,7 @@ def _own_contradictions(kind: str, parts: Mapping[str, Article]) -> Iterator[Con
             yield (kind, key, *where), value, reason
 
 
-def _material_contradictions(name: str, material: Material) -> Iterator[Contradiction]:
+def _material_contradictions(name: str, material: tables.Material) -> Iterator[Contradiction]:
     """Yield layers that hold each other better than they hold themselves, and a modulus that is not in MPa."""
     strength, between = material.strength_in_plane_mpa, material.strength_interlayer_mpa
     if between > strength:
@@ -225,7 +190,7 @@ def _material_contradictions(name: str, material: Material) -> Iterator[Contradi
         yield ("materials", name, "modulus_mpa"), material.modulus_mpa, reason
 
 
-def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:
+def _release_contradictions(release: tables.ReleaseTable) -> Iterator[Contradiction]:
     """Yield a play that is worse than none, and ranges whose limits are exchanged."""
     play, least = release.play_deg, DOG_PLAY_MIN_DEG
     if play != "auto" and 0.0 < play < least:
@@ -237,14 +202,14 @@ def _release_contradictions(release: ReleaseTable) -> Iterator[Contradiction]:
             yield ("release", key), low, f"must be at most {high:g}, the end of its range"
 
 
-def _cage_contradictions(cage: CageTable) -> Iterator[Contradiction]:
+def _cage_contradictions(cage: tables.CageTable) -> Iterator[Contradiction]:
     """Yield what is too small for any hoop, but 0, which means that it is found."""
     for key, least in CAGE_LEAST.items():
         if 0.0 < getattr(cage, key) < least:
             yield ("cage", key), getattr(cage, key), f"must be at least {least:g}, or 0: found from the robot's height"
 
 
-def _not_ascending(fits: Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:
+def _not_ascending(fits: tables.Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:
     """Yield the fits that are tighter than the one before them."""
     for tight, wide in itertools.pairwise(keys):
         if getattr(fits, wide) < getattr(fits, tight):

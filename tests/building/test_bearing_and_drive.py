@@ -112,7 +112,7 @@ def test_the_hub_keeps_off_the_spacer_on_the_cams_axle_and_off_the_rollers_screw
     to_spacer = 16.0 - SPACER_RADIUS_MM - GAP_MM - 2.0 * 1.7 - 0.08
     to_screw = 14.0 - holes.fits.m3_clearance_mm / 2.0 - 0.9 - 0.08
     for axis_mm, lever_mm, free in ((16.0, 100.0, 2.0 * to_spacer), (90.0, 14.0, 2.0 * to_screw)):
-        cam = SimpleNamespace(cam_axis_mm=np.array([0.0, axis_mm]), lever_length_mm=lever_mm)
+        cam = SimpleNamespace(geometry=SimpleNamespace(axis_mm=np.array([0.0, axis_mm]), lever_mm=lever_mm))
         bearings = (holes.bearing.model_copy(update={"outer_mm": free + more}) for more in (-0.01, 0.01))
         beside = replace(settled, drive=SimpleNamespace(cam=cam))
         just, wide = (replace(beside, holes=replace(holes, bearing=one)) for one in bearings)

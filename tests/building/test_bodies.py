@@ -239,7 +239,7 @@ def test_wheels_have_their_inertia_about_their_own_axle(
 def test_the_roller_moves_with_a_quarter_of_its_lever(robot: Robot, moving: MovingParts) -> None:
     """Rayleigh: 33/140 of a uniform cantilever; of a printed lever of that length, thickness and mean height."""
     sections, material = robot.layout.sections, robot.workshop.material("links")
-    length, height = robot.layout.drive.cam.lever_length_mm, (sections.lever_root_mm + 9.0) / 2.0
+    length, height = robot.layout.drive.cam.geometry.lever_mm, (sections.lever_root_mm + 9.0) / 2.0
     bearing = sum(item.mass_kg for item in robot.hardware if item.name.startswith("roller"))
     solid = 33.0 / 140.0 * length * height * sections.thickness_mm * material.density_g_cm3 * 1e-6
     more = moving.roller_kg - bearing
@@ -260,7 +260,7 @@ def test_the_lever_is_printed_as_links_are(robot: Robot, moving: MovingParts, ro
 def test_the_lever_bends_as_a_cantilever_that_tapers(robot: Robot, moving: MovingParts) -> None:
     """F/f = 3·E·I/L³; between that of its root's section and that of its eye's, less what infill leaves out."""
     sections, material = robot.layout.sections, robot.workshop.material("links")
-    length = robot.layout.drive.cam.lever_length_mm / 1000.0
+    length = robot.layout.drive.cam.geometry.lever_mm / 1000.0
     stiffness = [
         3.0 * material.modulus_mpa * 1e6 * sections.thickness_mm * height**3 / 12.0 * 1e-12 / length**3
         for height in (9.0, sections.lever_root_mm)

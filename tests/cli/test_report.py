@@ -41,7 +41,7 @@ def test_an_edited_page_of_a_bundle_is_not_replaced(
     def built(*_: object) -> None:
         raise JumpcadError("begun")
 
-    monkeypatch.setattr("jumpcad.cli.report.printed_robot", built)
+    monkeypatch.setattr("jumpcad.cli.subjects.printed_robot", built)
     copy = shutil.copytree(bundle, tmp_path / "kenan-2.0")
     page = copy / "report.html"
     page.write_text(page.read_text() + "mine" if page.exists() else "mine")

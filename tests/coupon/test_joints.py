@@ -6,7 +6,8 @@ from manifold3d import CrossSection
 
 from jumpcad.coupon import joints
 from jumpcad.coupon.joints import joint_pieces, rib_steps_mm, steps_mm
-from jumpcad.coupon.pieces import Piece, coupon_holes
+from jumpcad.coupon.pieces import coupon_holes
+from jumpcad.parts.part import Piece
 from jumpcad.workshop import load_workshop
 
 

@@ -11,7 +11,8 @@ from manifold3d import CrossSection, JoinType, Manifold, Mesh64
 from support.gearing import turning_play_deg
 
 from jumpcad.coupon.joints import joint_pieces
-from jumpcad.coupon.pieces import Piece, coupon_holes, pieces
+from jumpcad.coupon.pieces import coupon_holes, pieces
+from jumpcad.parts.part import Piece
 from jumpcad.printing.plates import packed
 from jumpcad.solids.outline import text
 from jumpcad.solids.stl import faults, write_stl

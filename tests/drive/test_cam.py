@@ -57,7 +57,7 @@ def test_the_largest_torque_at_the_cam_is_the_springs_times_how_fast_the_leg_tur
     cam = synthesised(compression_deg, stiffness)
     phi = np.linspace(0.0, LIMITS.lift_rad, 4001)
     wind = cam.wind_rad(phi)
-    assert cam.peak_torque_nm == pytest.approx((stiffness * wind * np.gradient(wind, phi))[600:-1].max(), rel=2e-3)
+    assert cam.law.peak_torque_nm == pytest.approx((stiffness * wind * np.gradient(wind, phi))[600:-1].max(), rel=2e-3)
 
 
 @pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
@@ -75,14 +75,14 @@ def test_contact_force_and_spring_do_the_same_work(compression_deg, stiffness):
     contact = cam.geometry.in_body(cam.geometry.contact_mm(phi), phi)
     per_newton_on_leg = (contact[:, 0] * normal[:, 1] - contact[:, 1] * normal[:, 0]) / 1000
     force = stiffness * cam.wind_rad(phi) / per_newton_on_leg
-    arm = contact - cam.cam_axis_mm
+    arm = contact - cam.geometry.axis_mm
     # The cam turns clockwise; the reaction of the leg on it is counter-clockwise.
     torque = force * (arm[:, 0] * -normal[:, 1] - arm[:, 1] * -normal[:, 0]) / 1000
     assert (force > 0).all()
     assert force.max() == pytest.approx(cam.peak_contact_n, rel=0.01)
     energy = 0.5 * stiffness * cam.wind_rad(np.stack([phi - step, phi + step])) ** 2
     assert torque == pytest.approx((energy[1] - energy[0]) / (2 * step), rel=1e-6)
-    angle = np.arccos(np.clip(per_newton_on_leg * 1000 / cam.lever_length_mm, -1, 1))
+    angle = np.arccos(np.clip(per_newton_on_leg * 1000 / cam.geometry.lever_mm, -1, 1))
     assert angle.max() <= math.radians(45) + 1e-9
     assert angle.max() == pytest.approx(cam.max_pressure_angle_rad, abs=0.02)
 
@@ -93,28 +93,28 @@ def test_the_roller_rolls_on_the_polygon_through_lift_and_release(compression_de
     phi = np.linspace(0, 2 * math.pi, 720, endpoint=False)
     wind = cam.wind_rad(phi)
     gap = distance_to_polygon(cam.geometry.in_cam(cam.geometry.roller_mm(wind), phi), cam.profile_mm)
-    gap -= cam.roller_radius_mm
+    gap -= cam.geometry.roller_radius_mm
     assert gap.min() > -0.02
     touching = phi <= LIMITS.lift_rad
     assert np.abs(gap[touching]).max() < 0.02
     over_tip = (phi > LIMITS.lift_rad) & (wind > 0)
     assert np.abs(gap[over_tip]).max() < 0.02
     assert wind[touching][-1] == pytest.approx(math.radians(compression_deg), rel=0.01)
-    assert (wind[phi > cam.free_rad] == 0).all()
+    assert (wind[phi > cam.geometry.free_rad] == 0).all()
 
 
 @pytest.mark.parametrize(("compression_deg", "stiffness"), cam_cases())
 def test_the_falling_leg_clears_the_cam_at_every_cam_angle_of_the_drop(compression_deg, stiffness):
     cam = synthesised(compression_deg, stiffness)
     wind = np.linspace(0, math.radians(compression_deg), 60)
-    for phi in np.linspace(cam.free_rad, 2 * math.pi, 12):
+    for phi in np.linspace(cam.geometry.free_rad, 2 * math.pi, 12):
         roller = cam.geometry.in_cam(cam.geometry.roller_mm(wind), np.full(wind.shape, phi))
-        assert distance_to_polygon(roller, cam.profile_mm).min() > cam.roller_radius_mm - 1e-3
+        assert distance_to_polygon(roller, cam.profile_mm).min() > cam.geometry.roller_radius_mm - 1e-3
     past = np.linspace(-LIMITS.overshoot_rad, math.radians(compression_deg), 80)
     gaps = []
-    for phi in np.linspace(cam.free_rad, cam.free_rad + LIMITS.reserve_rad, 5):
+    for phi in np.linspace(cam.geometry.free_rad, cam.geometry.free_rad + LIMITS.reserve_rad, 5):
         roller = cam.geometry.in_cam(cam.geometry.roller_mm(past), np.full(past.shape, phi))
-        gaps.append(distance_to_polygon(roller, cam.profile_mm).min() - cam.roller_radius_mm)
+        gaps.append(distance_to_polygon(roller, cam.profile_mm).min() - cam.geometry.roller_radius_mm)
     assert min(gaps) > LIMITS.clearance_mm - 0.02
     assert gaps[0] == pytest.approx(LIMITS.clearance_mm, abs=0.02)
 
@@ -127,7 +127,7 @@ def test_the_cam_keeps_clear_of_hub_axle_and_ground_line(compression_deg, stiffn
         polygon = cam.geometry.in_body(cam.profile_mm, np.full(len(cam.profile_mm), phi))
         assert distance_to_polygon(hub, polygon)[0] >= LIMITS.hub_radius_mm + LIMITS.clearance_mm - 1e-6
         assert polygon[:, 1].min() >= LIMITS.lowest_mm - 1e-6
-    assert np.hypot(*cam.cam_axis_mm) - cam.lever_length_mm >= LIMITS.gap_min_mm - 1e-6
+    assert np.hypot(*cam.geometry.axis_mm) - cam.geometry.lever_mm >= LIMITS.gap_min_mm - 1e-6
     radii = np.hypot(*cam.profile_mm.T)
     assert radii.min() >= LIMITS.core_radius_mm - 1e-6
     assert radii.max() == pytest.approx(cam.outer_radius_mm)

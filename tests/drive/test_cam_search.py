@@ -86,7 +86,7 @@ def test_no_neighbour_on_the_grid_is_a_cam_smaller_by_a_step_that_fits():
         cam = synthesised(compression_deg, stiffness)
         steps = np.array([0.01, 0.01, math.radians(0.01)])
         shape = np.array(
-            [cam.lever_length_mm, cam.geometry.axis_distance_mm - cam.lever_length_mm, cam.geometry.lead_rad]
+            [cam.geometry.lever_mm, cam.geometry.axis_distance_mm - cam.geometry.lever_mm, cam.geometry.lead_rad]
         )
         assert shape / steps == pytest.approx(np.round(shape / steps), abs=1e-6)
         smaller = shape - steps * np.array(list(itertools.product((0.0, 1.0), repeat=3)))[1:]
@@ -101,7 +101,7 @@ def test_the_findings_of_a_cam_are_those_of_its_own_shape():
     """Not of one beside it on the grid: pressure angle, pressure and load again from its outline's shape."""
     for compression_deg, stiffness in ((50, 0.6), (45, 1.0), (35, 0.8), (55, 0.5)):
         cam = synthesised(compression_deg, stiffness)
-        shape = [cam.lever_length_mm, cam.geometry.axis_distance_mm - cam.lever_length_mm, cam.geometry.lead_rad]
+        shape = [cam.geometry.lever_mm, cam.geometry.axis_distance_mm - cam.geometry.lever_mm, cam.geometry.lead_rad]
         law = CamLaw(math.radians(compression_deg), stiffness, LIMITS.lift_rad, LIMITS.ramp_rad)
         outer, margins, numbers = measure(law, LIMITS, np.array([shape]), 181)
         least = {checked.name: math.inf for checked in CAM_LIMITS}

@@ -26,7 +26,7 @@ def standing(name: str, cam_rad: float, radius_mm: float = 0.0) -> shapely.Geome
     outline = shapely.Polygon(cam.geometry.outline_mm(721)).buffer(-radius_mm, 64).buffer(radius_mm, 64)
     # a positive turn about +y is clockwise where x points right and z up
     turned = affinity.rotate(outline, -cam_rad, (0, 0), use_radians=True)
-    return affinity.translate(turned, *cam.cam_axis_mm)
+    return affinity.translate(turned, *cam.geometry.axis_mm)
 
 
 @pytest.mark.parametrize("name", TEMPLATES)

@@ -53,7 +53,9 @@ def test_who_is_in_a_hurry_gets_heavier_gears(name):
         synthesise_train(law_of(name), low_power, dataclasses.replace(LIMITS, seconds_per_gram=seconds))
         for seconds in (0.01, 1e6)
     )
-    gears = [sum(p.module_mm**2 * (p.pinion.teeth**2 + p.wheel.teeth**2) for p in t.stages) for t in (hurry, patience)]
+    gears = [
+        sum(p.pinion.module_mm**2 * (p.pinion.teeth**2 + p.wheel.teeth**2) for p in t.stages) for t in (hurry, patience)
+    ]
     assert hurry.winding_s < patience.winding_s
     assert gears[0] > gears[1]
 
@@ -174,9 +176,9 @@ def test_gears_that_are_offered_print_and_hold_their_shafts(count, changed):
     for motor, stages in by_cost(law_of("kenan-2.0"), MOTORS, limits, count):
         for pair in stages:
             assert pair.pinion.root_radius_mm >= limits.beside(motor).pinion_root_min_mm - 1e-9
-            assert Gear(pair.pinion.teeth, pair.module_mm, pair.pinion.shift, 1.0, 0.075).tip_thickness_mm >= (
+            assert Gear(pair.pinion.teeth, pair.pinion.module_mm, pair.pinion.shift, 1.0, 0.075).tip_thickness_mm >= (
                 limits.tip_min_mm
             )
-            assert pair.module_mm in limits.modules_mm
+            assert pair.pinion.module_mm in limits.modules_mm
             offered += 1
     assert offered

@@ -27,7 +27,8 @@ def span_mm(gear, teeth):
 
 def over_pins_mm(gear, pin_mm):
     """Return the size over two pins of a diameter, in opposite gaps (DIN 3960)."""
-    half_gap = (math.pi * gear.module_mm - gear.pitch_thickness_mm) / (2 * gear.pitch_radius_mm)
+    thick = gear.module_mm * (math.pi / 2 + 2 * gear.shift * math.tan(math.radians(20))) - gear.thinning_mm
+    half_gap = (math.pi * gear.module_mm - thick) / (2 * gear.pitch_radius_mm)
     involute = math.tan(math.radians(20)) - math.radians(20) + pin_mm / (2 * gear.base_radius_mm) - half_gap
     centre = gear.base_radius_mm / math.cos(float(inverse_involute(involute)))
     return 2 * centre * (math.cos(math.pi / (2 * gear.teeth)) if gear.teeth % 2 else 1.0) + pin_mm

@@ -155,10 +155,10 @@ def test_a_motor_winds_at_the_nominal_voltage_and_must_manage_with_an_empty_batt
     limits = replace(default_limits().train, supply=supply, blocked_nm=0.21)
     motor = load_catalogue().motors["n20-298"]
     limits.driven(motor)
-    limits.weakest(motor)
+    limits.driven(motor, "empty")
     assert asked == [(motor, 3.7, 0.21), (motor, 3.3, 0.21)]
     bench = replace(limits, supply=None)
-    assert bench.driven(motor) is bench.weakest(motor) is motor
+    assert bench.driven(motor) is bench.driven(motor, "empty") is motor
 
 
 def test_an_idlers_wheel_passes_beside_the_spacers_of_the_cams_axle() -> None:

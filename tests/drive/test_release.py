@@ -249,7 +249,7 @@ def test_a_corner_wears_until_its_contact_shakes_down() -> None:
     robot = built("best-bo")
     cam, width = robot.layout.drive.cam, 4.0
     flat = 2000.0 / (1.0 - 0.38**2) * cam.peak_contact_n / (math.pi * width)
-    pressure = math.sqrt(flat * (1.0 / cam.worn_mm + 1.0 / cam.roller_radius_mm))
+    pressure = math.sqrt(flat * (1.0 / cam.worn_mm + 1.0 / cam.geometry.roller_radius_mm))
     assert pressure == pytest.approx(4.0 * 45.0 / math.sqrt(3.0), rel=1e-3)
     assert 0.0 < robot.release.worn_rad < math.radians(10.0)
     sharp, worn = (next(one.value for one in robot.release.findings if one.name == name) for name in NAMES)

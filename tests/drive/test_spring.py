@@ -38,7 +38,7 @@ def test_the_wound_coil_keeps_its_wire_and_clears_its_bushing(name):
     assert spring.body_length_mm <= LENGTH_MM + 1e-9
     wire_length = math.pi * mean * spring.turns + 2 * spring.arm_length_mm
     assert spring.mass_g == pytest.approx(7.85e-3 * math.pi / 4 * spring.wire_mm**2 * wire_length)
-    assert spring.pin_radius_mm - spring.outer_diameter_mm / 2 == pytest.approx(LIMITS.arm_reach_mm, abs=1e-6)
+    assert spring.arms.pin_radius_mm - spring.outer_diameter_mm / 2 == pytest.approx(LIMITS.arm_reach_mm, abs=1e-6)
 
 
 @pytest.mark.parametrize("least_mm", [0.0, 14.0, 16.0])
@@ -48,7 +48,7 @@ def test_pins_keep_away_from_the_hub_though_the_coil_is_small(least_mm):
     limits = replace(LIMITS, pin_radius_min_mm=least_mm)
     assert limits.pin_radius_mm(coil_mm) == max(least_mm, 10.0 + limits.arm_reach_mm)
     _, spring = spring_of("kenan-2.0", limits)
-    assert spring.pin_radius_mm >= max(least_mm, spring.outer_diameter_mm / 2 + limits.arm_reach_mm) - 1e-6
+    assert spring.arms.pin_radius_mm >= max(least_mm, spring.outer_diameter_mm / 2 + limits.arm_reach_mm) - 1e-6
 
 
 @each("name", NAMES)
@@ -82,7 +82,7 @@ def test_relaxed_arms_are_tangents_that_touch_the_sides_of_their_pins(name, plat
     spring = synthesise_spring(on_leg, leg, WIRE, limits)
     assert (spring.plate_pin_rad, spring.leg_pin_rad) == (math.radians(plate_pin_deg), leg)
     mean, beside = spring.arms.mean_mm, (spring.wire_mm + limits.pin_mm) / 2
-    pins = [spring.pin_radius_mm * np.exp(1j * angle) for angle in (math.radians(plate_pin_deg), leg)]
+    pins = [spring.arms.pin_radius_mm * np.exp(1j * angle) for angle in (math.radians(plate_pin_deg), leg)]
 
     def from_line(pin, start, along):
         """Return how far a pin's axis is to the right of a line, and how far along."""

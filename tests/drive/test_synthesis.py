@@ -36,7 +36,7 @@ def check(design, drive):
     assert cam.law.energy_j == pytest.approx(design.spring_energy_j)
     play_deg = max(12.0, math.degrees(cam.roll_over_rad) + 3.0)
     assert math.degrees(drive.dog.play_rad) == pytest.approx(round(play_deg, 3), abs=1e-9)
-    axis = math.hypot(*cam.cam_axis_mm)
+    axis = math.hypot(*cam.geometry.axis_mm)
     assert axis - cam.outer_radius_mm - spring.outer_diameter_mm / 2 >= LIMITS.cam.clearance_mm - 1e-6
     assert axis - train.stages[-1].wheel.tip_radius_mm >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6
     for pair in train.stages[1:]:
@@ -87,7 +87,7 @@ def test_the_cam_gives_way_to_a_thick_spring():
     drive = synthesise(load_design("best-bo"), limits)
     radius = drive.spring.outer_diameter_mm / 2
     assert radius > 8
-    gap = math.hypot(*drive.cam.cam_axis_mm) - drive.cam.outer_radius_mm - radius
+    gap = math.hypot(*drive.cam.geometry.axis_mm) - drive.cam.outer_radius_mm - radius
     assert gap == pytest.approx(LIMITS.cam.clearance_mm, abs=0.01)
 
 
@@ -114,13 +114,13 @@ def test_torque_at_the_cam_is_what_the_design_note_says():
     # Energy over lift without a ramp: 22 mN·m for 0.133 J, 121 mN·m for 0.72 J; the ramp and the drop add to it.
     for name, plain in (("kenan-2.0", 0.022), ("best-bo", 0.121)):
         cam = synthesise(load_design(name), LIMITS).cam
-        assert 1.0 < cam.peak_torque_nm / plain < 1.2
+        assert 1.0 < cam.law.peak_torque_nm / plain < 1.2
 
 
 def test_a_stronger_spring_never_needs_less_torque():
     designs = (load_design("kenan-2.0").model_copy(update={"stiffness_nmm_per_deg": k}) for k in (8.0, 16.0))
     weak, strong = (synthesise(design, LIMITS) for design in designs)
-    assert strong.cam.peak_torque_nm == pytest.approx(2 * weak.cam.peak_torque_nm)
+    assert strong.cam.law.peak_torque_nm == pytest.approx(2 * weak.cam.law.peak_torque_nm)
     assert strong.spring.wire_mm >= weak.spring.wire_mm
     assert strong.train.ratio >= weak.train.ratio
 
@@ -150,12 +150,12 @@ def test_gears_widen_where_their_teeth_are_too_weak():
     for stress in (10.0, 2.0, 1.5):
         limits = dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=stress))
         trains[stress] = synthesise(design, limits).train
-    assert [train.stages[0].face_width_mm for train in trains.values()] == sorted(LIMITS.face_widths_mm)
+    assert [train.stages[0].wheel.face_width_mm for train in trains.values()] == sorted(LIMITS.face_widths_mm)
     for stress, train in trains.items():
         pinion = train.stages[0].pinion
         # what the pair loses to friction does not bend its teeth
         force = 2000.0 * LIMITS.train.pair_efficiency * train.motor_torque_nm / (pinion.module_mm * pinion.teeth)
-        lewis = force / (train.stages[0].face_width_mm * pinion.module_mm * pinion.lewis_factor)
+        lewis = force / (train.stages[0].wheel.face_width_mm * pinion.module_mm * pinion.lewis_factor)
         assert lewis <= stress
     with pytest.raises(CannotBuildError, match=r"1.2 MPa in teeth 8 mm wide\): lower stiffness_nmm_per_deg"):
         synthesise(design, dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=1.2)))
@@ -170,7 +170,7 @@ def test_the_cams_axis_makes_room_for_one_pair_at_the_least_gap_that_is_enough(n
     first = next(drive for drive in alone if len(drive.train.stages) == 1)
     found = synthesise(design, limits)
     assert found.train == first.train
-    assert found.cam.cam_axis_mm.tolist() == first.cam.cam_axis_mm.tolist()
+    assert found.cam.geometry.axis_mm.tolist() == first.cam.geometry.axis_mm.tolist()
 
 
 def test_of_cams_that_need_two_pairs_the_nearest_is_taken(monkeypatch):

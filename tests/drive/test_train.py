@@ -93,7 +93,7 @@ def test_the_gears_fit_and_bear_their_load(law, limits):
     torque = law.peak_torque_nm / 0.85
     for number, pair in reversed(list(enumerate(train.stages, start=1))):
         force = 1000 * torque / pair.wheel.pitch_radius_mm
-        stress = force / (limits.face_width_mm * pair.module_mm * pair.pinion.lewis_factor)
+        stress = force / (limits.face_width_mm * pair.pinion.module_mm * pair.pinion.lewis_factor)
         assert stress <= limits.stress_mpa
         assert findings[f"gear_strength_{number}"].value == pytest.approx(stress)
         assert pair.pinion.tip_thickness_mm >= limits.tip_min_mm

@@ -26,7 +26,7 @@ from support.slicers import OBEDIENT
 from jumpcad.bundle import export, renders
 from jumpcad.bundle import export as bundle_export
 from jumpcad.coupon import contents as coupon_contents
-from jumpcad.coupon.pieces import Piece
+from jumpcad.parts.part import Piece
 from jumpcad.simulation.engines import engine_named
 from jumpcad.workshop import Workshop
 

@@ -73,7 +73,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "switch": layout.fittings.switch,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
-    assert spring.pin_radius_mm == layout.leg_pin_mm
+    assert spring.arms.pin_radius_mm == layout.leg_pin_mm
     return make_layout(**(given | changed))
 
 
@@ -113,7 +113,7 @@ def test_toes_are_as_wide_as_asked_and_never_narrower_than_their_tips() -> None:
 def test_pivots_pins_and_axles_are_where_the_design_says() -> None:
     for name, layout in plans().items():
         assert math.dist(layout.hub_mm, layout.front_mm) == pytest.approx(layout.design.l1_mm), name
-        assert math.dist(layout.spring_pin_mm, layout.hub_mm) == pytest.approx(layout.drive.spring.pin_radius_mm)
+        assert math.dist(layout.spring_pin_mm, layout.hub_mm) == pytest.approx(layout.drive.spring.arms.pin_radius_mm)
         assert layout.spring_pin_mm[1] > layout.hub_mm[1]
         assert set(layout.axles) == {"leg", "front", "cam"} | (
             {"idler"} if len(layout.drive.train.stages) == 2 else set()
@@ -222,7 +222,7 @@ def test_a_cam_gear_in_the_legs_axle_is_refused() -> None:
     layout = plans()["kenan-2.0"]
     pair = layout.drive.train.stages[-1]
     room = math.dist(layout.cam_axis_mm, layout.hub_mm)
-    teeth = math.ceil(2.0 * room / pair.module_mm)  # its pitch circle then passes through the axle
+    teeth = math.ceil(2.0 * room / pair.pinion.module_mm)  # its pitch circle then passes through the axle
     huge = replace(pair, wheel=replace(pair.wheel, teeth=teeth))
     post = [disc("post", np.array([10.0, 0.0]), 2.0, EVERYWHERE)]
     require_gear_room(post, np.zeros(2), 8.0, (0.0, 1.0))

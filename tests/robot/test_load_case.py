@@ -33,7 +33,7 @@ def test_the_arms_forces_turn_leg_and_plates_with_the_springs_torque(name: str) 
     (on_leg, on_pin), _ = case.wound_forces_n
     loaded = spring.leg_pin_rad + robot.design.compression_rad
     for force, angle, sense in ((on_leg, loaded, -1.0), (on_pin, spring.plate_pin_rad, 1.0)):
-        x, z = spring.pin_radius_mm * math.cos(angle), spring.pin_radius_mm * math.sin(angle)
+        x, z = spring.arms.pin_radius_mm * math.cos(angle), spring.arms.pin_radius_mm * math.sin(angle)
         assert x * force[1] - z * force[0] == pytest.approx(sense * 1000.0 * robot.spring.peak_torque_nm)
         assert (x * force[0] + z * force[1]) / math.hypot(*force) > spring.arms.mean_mm / 2.0
 

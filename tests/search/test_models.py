@@ -76,9 +76,8 @@ def test_a_design_is_evaluated_in_the_model_s_own_workshop_settings_and_engine(m
     light, fine, design = load_workshop("light"), load_settings("fine"), load_design("kenan-2.0")
     gate = [Finding("tips", "info", 0.1, "mm", "", "")]
     jump, asked = Jump("jump", "mujoco", 0.1, 0.2, findings=gate), []
-    # First that of `evaluation`, which would keep the stand-in of `simulate` if it was imported after it.
-    monkeypatch.setattr("jumpcad.evaluation.evaluate_made", lambda *given: asked.append(given[1:4]) or 1 / 0)
-    monkeypatch.setattr("jumpcad.simulation.simulate", lambda *given: asked.append(given[1:]) or jump)
+    monkeypatch.setattr("jumpcad.search.models.evaluate_made", lambda *given: asked.append(given[1:4]) or 1 / 0)
+    monkeypatch.setattr("jumpcad.search.models.simulate", lambda *given: asked.append(given[1:]) or jump)
     assert robot_model("capsule", None, fine, "mujoco")(design).findings == tuple(gate)
     thick = {"body.plate_mm": 2.0, "safety.spring_rate_scatter": 0.2, "fits.sliding_mm": 0.25}
     printed = robot_model("printed", light, fine, "mujoco")
@@ -96,7 +95,7 @@ def test_a_refusal_says_by_how_much_its_limit_was_missed(monkeypatch):
     def refused(*_):
         raise CannotBuildError("no room", "room_tray", -2.5)
 
-    for name in ("jumpcad.building.layout_of", "jumpcad.evaluation.evaluate_made"):
+    for name in ("jumpcad.search.models.layout_of", "jumpcad.search.models.evaluate_made"):
         monkeypatch.setattr(name, refused)
     model, variant = robot_model(), Variant(load_design("kenan-2.0"))
     for found in (model.laid_out(variant), model(variant.design)):

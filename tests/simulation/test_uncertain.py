@@ -12,6 +12,7 @@ from support.workshops import workshop_with
 from jumpcad.errors import CannotBuildError
 from jumpcad.robot.robot import Robot
 from jumpcad.settings import Draws, Settings, coefficients
+from jumpcad.simulation import prior as priors
 from jumpcad.simulation import simulate, uncertain
 from jumpcad.simulation.uncertain import (
     Uncertainty,
@@ -53,7 +54,7 @@ def test_jumps_and_their_resampling_follow_from_the_seed(robot: Robot, monkeypat
     one, again, other = (found(seed) for seed in (0, 0, 1))
     assert one == again
     assert one.quantiles != other.quantiles
-    monkeypatch.setattr(uncertain, "sobol", lambda width, count, _: np.random.default_rng(0).random((count, width)))
+    monkeypatch.setattr(priors, "sobol", lambda width, count, _: np.random.default_rng(0).random((count, width)))
     one, other = found(0), found(1)
     assert one.quantiles == other.quantiles
     assert one.interval != other.interval

@@ -92,11 +92,11 @@ def test_arms_and_cam_turn_the_leg_by_the_same_torque(name: str) -> None:
     design, drive = robot.design, robot.layout.drive
     arms, cam = loaded_forces_n(design, drive)
     leg = math.radians(design.rest_angle_deg) - design.compression_rad  # below the x axis
-    pin = drive.spring.pin_radius_mm * np.array([math.cos(leg), -math.sin(leg)])
+    pin = drive.spring.arms.pin_radius_mm * np.array([math.cos(leg), -math.sin(leg)])
     torque = 1000.0 * design.peak_spring_torque_nm
     assert pin[0] * arms[1] - pin[1] * arms[0] == pytest.approx(-torque)  # clockwise, towards rest
-    lever = drive.cam.lever_start_rad + design.compression_rad
-    roller = drive.cam.lever_length_mm * np.array([math.cos(lever), math.sin(lever)])
+    lever = drive.cam.geometry.lever_start_rad + design.compression_rad
+    roller = drive.cam.geometry.lever_mm * np.array([math.cos(lever), math.sin(lever)])
     assert roller[0] * cam[1] - roller[1] * cam[0] >= torque - 1e-9  # the contact is not square to the lever
 
 

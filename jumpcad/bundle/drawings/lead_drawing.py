@@ -60,7 +60,8 @@ def leads_svg(robot: Robot) -> str:
     plates = [plate for side, left in places.items() if (plate := _plate(robot, leads, side, left, width))]
     trays = _trays(robot, leads, max((plate["bottom"] + 4.0 for plate in plates), default=0.0) + MARGIN_MM)
     values = {
-        "width": WIDTH_MM, "plates": plates, "trays": trays, "text_y": MARGIN_MM + 3.0, "badge": BADGE_MM, "n": _n,
+        "width": WIDTH_MM, "plates": plates, "trays": trays, "text_y": MARGIN_MM + 3.0, "badge": BADGE_MM,
+        "n": lambda value: f"{round(float(value), 1) + 0.0:g}",  # no negative zero
     }  # fmt: skip
     return fill("drawings/leads.svg.j2", values)
 
@@ -233,8 +234,3 @@ def _box(view: Projection, box: tuple[Array, Array], words: str, fill: str | Non
     """Return a box by its least and largest corner; without a fill it is dashed."""
     low, high = (np.array(end) for end in zip(*(sorted(pair) for pair in view.on(*box).T), strict=True))
     return {"low": low, "high": high, "words": words, "fill": fill}
-
-
-def _n(value: float) -> str:
-    """Return a coordinate of the drawing; no negative zero."""
-    return f"{round(float(value), 1) + 0.0:g}"

@@ -149,8 +149,7 @@ def arms_of(spring: TorsionSpring, hand: str, closed_rad: float = 0.0) -> tuple[
     for angle, outwards in ((math.pi / 2.0 + sense * turn, 1.0), (math.pi / 2.0, -1.0)):
         point = radius * np.array([math.cos(angle), math.sin(angle)])
         along = sense * np.array([-math.sin(angle), math.cos(angle)])
-        line = np.stack([point, point + outwards * length * along])
-        made.append(line * (1.0, -1.0))
+        made.append(np.stack([point, point + outwards * length * along]) * (1.0, -1.0))
     return made[0], made[1]
 
 

@@ -112,7 +112,7 @@ def _has(robot: Robot) -> dict[str, Any]:
 def _springs(robot: Robot) -> dict[str, Any]:
     """Return what hands feel of the springs; with the leg on its stop they are less loaded than at rest."""
     spring, layout = robot.layout.drive.spring, robot.layout
-    at_stop = math.degrees(layout.stop_preload_rad)
+    at_stop = math.degrees(spring.preload_rad - layout.stop.angle_rad)
     per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {

@@ -3,12 +3,7 @@
 import math
 from typing import Any
 
-from jumpcad.bundle.firmware_numbers import (
-    AFTER_RELEASE_MS,
-    BUTTON_DELAY_MS,
-    LANDING_MS,
-    numbers,
-)
+from jumpcad.bundle import firmware_numbers as firmware
 from jumpcad.catalogue.electrical import DEAD_CELL_V
 from jumpcad.electronics.nets import LOWER_OHM, Wiring
 from jumpcad.electronics.supply import boards_beside_a
@@ -36,7 +31,7 @@ BOX_FREE_MM = 8.0
 def operation_values(robot: Robot) -> dict[str, Any]:
     """Return articles, currents (mA), voltages (V), times (s, ms) and energies (J) by the names that templates use."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
-    chosen, program = robot.electrical_parts, numbers(robot)
+    chosen, program = robot.electrical_parts, firmware.numbers(robot)
     supply, wiring = robot.supply, robot.wiring
     battery, controller = chosen.battery, chosen.controller
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)
@@ -67,13 +62,14 @@ def operation_values(robot: Robot) -> dict[str, Any]:
         "boards_a": boards_a if controller.button else boards_beside_a(chosen),
         "free_a": free_a + (boards_a if controller.button else boards_beside_a(chosen)), "wind_s": train.winding_s,
         "wind_j": train.electrical_j, "free_rpm": free.no_load_rpm,
-        "dry_s": 2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0), "after_ms": AFTER_RELEASE_MS,
-        "landing_s": LANDING_MS / 1000.0, "delay_s": BUTTON_DELAY_MS / 1000.0,
-        "stroke_deg": math.degrees(cam.law.compression_rad), "lift_deg": math.degrees(cam.law.lift_rad),
-        "worn_deg": math.degrees(robot.release.worn_rad),
+        "dry_s": 2.0 * math.pi * train.ratio / (free.no_load_rpm * math.pi / 30.0),
+        "after_ms": firmware.AFTER_RELEASE_MS, "landing_s": firmware.LANDING_MS / 1000.0,
+        "delay_s": firmware.BUTTON_DELAY_MS / 1000.0, "stroke_deg": math.degrees(cam.law.compression_rad),
+        "lift_deg": math.degrees(cam.law.lift_rad), "worn_deg": math.degrees(robot.release.worn_rad),
         "pull_n": 2.0 * robot.layout.drive.spring.torque_nmm / robot.design.carrying_link_mm,
         "shaft_hole_mm": train.motor.shaft_mm + 2.0 * workshop.fits.drawn.loose_mm, "box_mm": _box_mm(robot),
-        "free_j": free_j, "bears_j": bears_j, "preloaded": robot.layout.stop_preload_rad > 0.0,
+        "free_j": free_j, "bears_j": bears_j,
+        "preloaded": robot.layout.drive.spring.preload_rad > robot.layout.stop.angle_rad,
     }  # fmt: skip
 
 

@@ -52,13 +52,7 @@ class Place:
 
 
 def axles_and_pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield every axle and pin with what keeps it."""
-    yield from axles(layout, workshop)
-    yield from pins(layout, workshop)
-
-
-def axles(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the axles across the plates and the springs' pin, with their clips or nuts."""
+    """Yield the axles across the plates and the springs' pin, with their clips or nuts, then the pins with theirs."""
     outside, catalogue, chosen = layout.lateral.outside, workshop.catalogue, workshop.bought
     places = {f"{name}_axle": place for name, place in layout.axles.items()} | {"spring_pin": layout.spring_pin_mm}
     for name, centre in places.items():
@@ -70,9 +64,10 @@ def axles(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
         else:
             less = layout.floor_mm + AXLE_END_PLAY_MM
             yield _rod(place, (outside[0] + less, outside[1] - less), layout.axle_mm, catalogue, chosen)
+    yield from _pins(layout, workshop)
 
 
-def pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
+def _pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     """Yield the pins of ankle, front eye and springs' inner arms, with their retention."""
     ankle, lug = layout.ankle_face_mm, layout.lateral.lug_left[1]
     arm = layout.lateral.leg[1] + GAP_MM + 2.0 * layout.drive.spring.wire_mm

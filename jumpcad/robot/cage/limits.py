@@ -87,7 +87,7 @@ SAG_MM = 25.0
 """Most that a hoop gives under half of the robot; judgement: half of the height at which strong robots crouch."""
 FREE_MM = 3.0
 """Least distance of rods and bars from what moves, and from the ground under the loaded robot; judgement."""
-SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.85, ("rear", "behind"): 0.03}
+SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.98, ("rear", "behind"): 0.03}
 """Of the falling energy, by the bar that takes it and the direction, at most; `simulate --landing` says what its own
 landings bring a robot. Above the worst of 200 of `best-jumper`, MuJoCo."""
 WITHIN_MM = 100.0
@@ -194,8 +194,8 @@ def cage_findings(robot: Robot) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _horns(robot: Robot, cage: Cage) -> list[tuple[float, float, float]]:
-    """Return what the rear and the front horns bear, see `two_horns`.
+def _horns(robot: Robot, cage: Cage) -> Iterator[tuple[float, float, float]]:
+    """Yield what the rear and the front horns bear, see `two_horns`.
 
     The rear ones are clamped where the plates are wide: at the leg's axle, which the cam's may stand behind.
     """
@@ -204,13 +204,11 @@ def _horns(robot: Robot, cage: Cage) -> list[tuple[float, float, float]]:
     beside = (HORN_SIZE_MM[0] - BAR_MM) / 2.0 - robot.workshop.fits.drawn.press_mm
     holds = body.strength_in_plane_mpa * plate * beside**2 / (3.0 * LAP_MM)
     wide = (float(layout.hub_mm[0]) - layout.axle_mm / 2.0 - PAD_WALL_MM, end[1])
-    found = []
     for bar, axle, ends, clamped in zip(cage.bars, (layout.hub_mm, layout.front_mm), end, wide, strict=True):
         along = bar.horn_end_mm - axle
         share = abs(float(along @ bar.up)) / math.hypot(*along)
         lengths = (abs(float(bar.place_mm[0]) - ends), abs(float(bar.place_mm[0]) - clamped))
-        found.append(two_horns(body, lengths, HORN_MM, (plate + HORN_MORE_MM, plate), share, holds))
-    return found
+        yield two_horns(body, lengths, HORN_MM, (plate + HORN_MORE_MM, plate), share, holds)
 
 
 def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None = None) -> Iterator[Finding]:

@@ -27,7 +27,7 @@ LAP_MM = 3.0
 """Depth of the notches in bar and horn, half of the lap joint; judgement."""
 LAP_HEIGHT_MM, LAP_WALL_MM = 9.0, 4.0
 """Height of a bar at the plates, and its length beyond them; judgement: 6 mm are left above the notch."""
-HORN_MM, HORN_MORE_MM = (5.0, 12.0), 0.8
+HORN_MM, HORN_MORE_MM = (5.0, 13.0), 1.0
 """Height of a horn at its bar and at the plates, and how much thicker than these it is between them, inwards: it bends
 evenly in a fall, sideways and upwards (`cage_side`, `cage_ahead`); judgement."""
 HORN_SIZE_MM, HORN_BELOW_MM = (10.6, 10.5), 3.75

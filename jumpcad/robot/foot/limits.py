@@ -9,14 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from jumpcad.dimensions import (
-    AXLE_END_RADIUS_MM,
-    PAD_WALL_MM,
-    STANDOFF_PAD_MM,
-    STOP_EDGE_MM,
-    STOP_PAD_MM,
-    TOE_TIP_WIDTH_MM,
-)
+from jumpcad import dimensions
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.findings import Basis, Finding, at_least, higher, lower
 from jumpcad.robot.foot.toes import SCREWS_MM, joint_height_mm
@@ -78,53 +71,39 @@ BASIS = {
 def toe_findings(robot: Robot) -> Iterator[Finding]:
     """Yield the findings of `BASIS`; those of bars and screws of toes only where there are any."""
     case = load_case(robot)
-    yield from (_lugs(case), *_foot(case), *_sideways(case))
-
-
-def _lugs(case: LoadCase) -> Finding:
-    """Return the finding of the lugs at the ankle: the foot prints on its sole, and they are pulled across layers."""
-    sections, bore = case.layout.sections, case.holes.lying(case.layout.axle_mm)
-    pull = max(case.ankle_n, case.front_n) / 2.0
+    design, sections, toes, blow = robot.design, case.layout.sections, case.toes_n, case.toe_blow_n
+    links, most = case.workshop.material("links"), case.allowable_mpa
+    bore, pull = case.holes.lying(case.layout.axle_mm), max(case.ankle_n, case.front_n) / 2.0
     stress = eye_stress_mpa(pull, sections.lug_thickness_mm, 2.0 * sections.foot_depth_mm, bore)
-    interlayer = case.workshop.material("links").strength_interlayer_mpa / case.workshop.safety.printed_factor
-    return stress_finding(
-        "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, interlayer, WEAKER, "lug"
+    least = links.strength_interlayer_mpa / case.workshop.safety.printed_factor  # the foot prints on its sole
+    yield stress_finding(
+        "foot_lug_strength", "the foot's lugs, pulled across their layers", stress, least, WEAKER, "lug"
     )
-
-
-def _foot(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of toes and rails."""
-    design, sections = case.robot.design, case.layout.sections
-    toes = case.toes_n
-    toe, rail = sections.toe(case.shell), sections.rail(case.shell)
+    toe = sections.toe(case.shell)
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, toes))
     ways = (*lower("e_coef", note="shorter toes"), *WEAKER)
-    yield stress_finding("toe_strength", "toes in bending at release", stress, case.allowable_mpa, ways, "toe")
-    stress = tapered_stress_mpa(rail, rail_moment_nmm(design, toes))
-    yield stress_finding(
-        "rail_strength", "the foot's rails in bending at release", stress, case.allowable_mpa, ways, "rail"
-    )
+    yield stress_finding("toe_strength", "toes in bending at release", stress, most, ways, "toe")
+    stress = tapered_stress_mpa(sections.rail(case.shell), rail_moment_nmm(design, toes))
+    yield stress_finding("rail_strength", "the foot's rails in bending at release", stress, most, ways, "rail")
     middle = rail_middle_mm(sections.thickness_mm, sections.lug_thickness_mm)
     shear = bar_shear_mpa(rail_twist_nmm(design, toes, middle), sections.lug_thickness_mm, sections.rail_root_mm)
     yield stress_finding(
         "rail_twist", "the foot's rails twisted beside the ankle at release", VON_MISES * float(shear),
-        case.workshop.material("links").strength_in_plane_mpa / TWIST_FACTOR,
-        (*lower("ground_link_angle_deg"), *ways), "rail",
+        links.strength_in_plane_mpa / TWIST_FACTOR, (*lower("ground_link_angle_deg"), *ways), "rail",
     )  # fmt: skip
-    blow = case.toe_blow_n
     stress = tapered_stress_mpa(toe, toe_moment_nmm(design, 2.0 * blow))
-    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, case.allowable_mpa, SOFTER, "toe")
+    yield stress_finding("toe_landing", "one toe's tip that lands first", stress, most, SOFTER, "toe")
     if bar := case.layout.toe_bar_mm:  # its end lands, which bends it and twists the toe
-        width, height = TOE_TIP_WIDTH_MM, sections.toe_tip_height_mm
+        width, height = dimensions.TOE_TIP_WIDTH_MM, sections.toe_tip_height_mm
         bending = float(Beam(width, height, case.shell, upright=True).stress_mpa(blow * bar))
         stress = max(bending, VON_MISES * float(bar_shear_mpa(blow * bar, width, height)))
-        yield stress_finding(
-            "toe_bar_strength", "the bar across a toe's tip", stress, case.allowable_mpa,
-            lower("body.toe_half_width_mm"), "toe",
-        )  # fmt: skip
+        narrower = lower("body.toe_half_width_mm")
+        yield stress_finding("toe_bar_strength", "the bar across a toe's tip", stress, most, narrower, "toe")
     if case.layout.toes_apart:
         stress = _toe_joint_mpa(case, max(0.5 * toes, blow))
-        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, case.allowable_mpa, ways, "toe")
+        yield stress_finding("toe_joint_strength", "the toes' screw holes", stress, most, ways, "toe")
+    stress = _sideways_mpa(case)
+    yield stress_finding("leg_sideways", "main leg bent sideways by one toe's tip", stress, most, SOFTER, "thickness")
 
 
 def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
@@ -140,8 +119,8 @@ def _toe_joint_mpa(case: LoadCase, tip_n: float) -> float:
     return max(eye_stress_mpa(force, width, height, bore) for bore in bores)
 
 
-def _sideways(case: LoadCase) -> Iterator[Finding]:
-    """Yield the finding of the main leg bent and twisted out of its plane by one toe's tip that lands first.
+def _sideways_mpa(case: LoadCase) -> float:
+    """Return the stress of the main leg bent and twisted out of its plane by one toe's tip that lands first.
 
     The impact's moment about the robot's long axis goes through the leg alone, the front link neglected: its part
     across the leg bends the leg sideways, its part along the leg twists it.
@@ -151,10 +130,7 @@ def _sideways(case: LoadCase) -> Iterator[Finding]:
     heights = np.linspace(sections.leg_root_mm, sections.leg_tip_mm, STATIONS)
     bending = Beam(heights, sections.thickness_mm, case.shell, upright=True).stress_mpa(moment * math.sin(angle))
     shear = VON_MISES * bar_shear_mpa(moment * math.cos(angle), heights, sections.thickness_mm)
-    stress = float(np.max(np.hypot(bending, shear)))
-    yield stress_finding(
-        "leg_sideways", "main leg bent sideways by one toe's tip", stress, case.allowable_mpa, SOFTER, "thickness"
-    )
+    return float(np.max(np.hypot(bending, shear)))
 
 
 GROUND_GAP_MM = 0.5
@@ -169,46 +145,46 @@ GROUND_BASIS = {
 }
 
 
-def ground_findings(robot: Robot) -> list[Finding]:
-    """Return `ground_clearance`: the lowest point of body, legs and lever above the ground, from loaded to rest."""
+def ground_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `ground_clearance`: the lowest point of body, legs and lever above the ground, from loaded to rest."""
     layout = robot.layout
     linkage, sections, cam = robot.linkage, layout.sections, layout.drive.cam
     leg = np.linspace(-robot.design.compression_rad, 0.0, POSITIONS)
     pose = linkage.pose(leg)
     down = np.stack([np.sin(pose.foot_rad), np.cos(pose.foot_rad)], axis=-1)  # up, in the body's frame
     fixed, radii = _body_discs(robot)
-    tips = layout.hub_mm + cam.lever_length_mm * direction(-cam.lever_start_rad + leg)
+    tips = layout.hub_mm + cam.geometry.lever_mm * direction(-cam.geometry.lever_start_rad + leg)
     heights = {
         "the body": (down @ fixed.T - _along(pose.ankle_mm, down)[:, None] - radii).min(axis=1),
-        "the roller": _along(tips - pose.ankle_mm, down) - cam.roller_radius_mm,
+        "the roller": _along(tips - pose.ankle_mm, down) - cam.geometry.roller_radius_mm,
         "the legs' ends": np.full(POSITIONS, -sections.eye_radius_mm),
     }
     name, lowest = min(((what, float(height.min())) for what, height in heights.items()), key=lambda item: item[1])
     clearance = lowest + sections.ground_mm
     needed = GROUND_GAP_MM + robot.workshop.safety.gap_reserve_mm
-    return [
-        at_least(
-            "ground_clearance", clearance, needed, "mm",
-            f"least height of {name} above the ground: {clearance:.1f} mm; {needed:g} mm are needed",
-            lower("compression_ratio") + higher("rest_angle_deg"),
-        )
-    ]  # fmt: skip
+    yield at_least(
+        "ground_clearance", clearance, needed, "mm",
+        f"least height of {name} above the ground: {clearance:.1f} mm; {needed:g} mm are needed",
+        lower("compression_ratio") + higher("rest_angle_deg"),
+    )  # fmt: skip
 
 
 def _along(vector: Array, unit: Array) -> Array:
     """Return the components (n,) of vectors (n, 2) along units (n, 2)."""
-    along: Array = np.einsum("ij,ij->i", vector, unit)
-    return along
+    return np.asarray(np.einsum("ij,ij->i", vector, unit))
 
 
 def _body_discs(robot: Robot) -> tuple[Array, Array]:
     """Return the lowest parts of the body as discs: middles (n, 2) in its frame and radii (n,)."""
     layout = robot.layout
-    pad = max(layout.axle_mm / 2.0 + PAD_WALL_MM, AXLE_END_RADIUS_MM)
+    pad = max(layout.axle_mm / 2.0 + dimensions.PAD_WALL_MM, dimensions.AXLE_END_RADIUS_MM)
     discs = [(place, pad) for place in layout.axles.values()]
-    discs += [(place, STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
+    discs += [(place, dimensions.STANDOFF_PAD_MM / 2.0) for place in layout.standoffs_mm]
     stop = layout.stop
-    boxes = [(stop.tab_mm, TAB_MM, STOP_EDGE_MM), (stop.middle_mm, (STOP_PAD_MM, stop.depth_mm), 0.0)]
+    boxes = [
+        (stop.tab_mm, TAB_MM, dimensions.STOP_EDGE_MM),
+        (stop.middle_mm, (dimensions.STOP_PAD_MM, stop.depth_mm), 0.0),
+    ]
     discs += [
         (middle + a * (size[0] / 2.0 + edge) * stop.along + b * (size[1] / 2.0 + edge) * stop.behind, 0.0)
         for (middle, size, edge), a, b in itertools.product(boxes, (-1.0, 1.0), (-1.0, 1.0))

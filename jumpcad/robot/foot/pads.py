@@ -2,8 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +10,7 @@ from jumpcad.dimensions import STOP_PAD_MM, TOE_TIP_WIDTH_MM
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import BODY, FOOT
 from jumpcad.parts.holes import HoleSizes
+from jumpcad.parts.part import Piece
 from jumpcad.parts.purchased import BoughtPart, bought, interval, placed_screw
 from jumpcad.robot.foot import toes
 from jumpcad.robot.foot.drawing import nose_outline
@@ -20,9 +19,6 @@ from jumpcad.robot.sizing import beside_leg_mm
 from jumpcad.solids.outline import Region, grown, rectangle
 from jumpcad.workshop import Workshop
 
-if TYPE_CHECKING:
-    import trimesh
-
 NOSE_BEHIND_SHARE, NOSE_UP_SHARE = 0.9, 0.7
 """How far the nose's pad reaches behind the front eye and, around the nose, up to below it, in depths of the foot;
 judgement: the robot leaves the ground and lands over the nose, which rolls on the ground."""
@@ -30,46 +26,23 @@ TOE_BACK_MM, TOE_AHEAD_MM = 8.0, 1.5
 """How far a toe's pad reaches from the tip's middle towards the root, and beyond; judgement."""
 
 
-@dataclass(frozen=True)
-class PrintedPad:
-    """A pad that is printed, as packing needs it: its material is named as its kind of pad."""
+@dataclass(frozen=True, kw_only=True)
+class PrintedPad(Piece):
+    """A pad that is printed, lying on its side: its material is named as its kind of pad."""
 
     item: BoughtPart
     pad: Pad
-
-    @property
-    def name(self) -> str:
-        """The pad's name, also that of its STL file."""
-        return self.item.name
-
-    @property
-    def material(self) -> str:
-        """Name of the kind of pad."""
-        return self.pad.name
-
-    @property
-    def quantity(self) -> int:
-        """How many are needed."""
-        return self.item.units
-
-    @cached_property
-    def mesh(self) -> "trimesh.Trimesh":
-        """Mesh in printing orientation: it lies on its side (mm)."""
-        from jumpcad.solids.stl import to_trimesh
-
-        return to_trimesh(self.item.solid)
-
-    @property
-    def shown_mesh(self) -> "trimesh.Trimesh":
-        """The mesh without fine detail, for pictures (mm)."""
-        return self.item.shown_mesh
 
 
 def printed_pads(hardware: Iterable[BoughtPart], workshop: Workshop) -> list[PrintedPad]:
     """Return the pads among bought parts that are printed."""
     foot, stop = workshop.foot_pad, workshop.stop_pad
     pads = ((item, stop if item.name == "stop_pad" else foot) for item in hardware if "_pad" in item.name)
-    return [PrintedPad(item, pad) for item, pad in pads if pad is not None and pad.printed]
+    return [
+        PrintedPad(item.name, pad.name, item.shape, item.units, item=item, pad=pad)
+        for item, pad in pads
+        if pad is not None and pad.printed
+    ]
 
 
 def stop_pad(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:

@@ -5,6 +5,7 @@ eye of length l whose bore is c wider than its pin tilts by c/l to either side.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -58,8 +59,8 @@ class Roll:
         return self.stance_deg - self.play_deg
 
 
-def sideways_findings(robot: Robot) -> list[Finding]:
-    """Return `sideways_tipping`, the least margin at rest, loaded and at landing, and `lateral_balance` if asked."""
+def sideways_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `sideways_tipping`, the least margin at rest, loaded and at landing, and `lateral_balance` if asked."""
     worst = min(rolls(robot), key=lambda roll: roll.margin_deg)
     reserve = robot.workshop.safety.roll_reserve_deg
     wider: Ways = higher("body.toe_half_width_mm")
@@ -68,24 +69,21 @@ def sideways_findings(robot: Robot) -> list[Finding]:
         wider = ("no body.toe_half_width_mm is enough: reduce the play",)
         if width:
             wider = (Change("body.toe_half_width_mm", "raise", value=round(width)),)
-    found = [
-        at_least(
-            "sideways_tipping", worst.margin_deg, reserve, "°",
-            f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
-            f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
-            (*wider, *higher("e_coef", "ground_link_angle_deg", note="wider toes"),
-             *lower("fits.eye_mm", note=f"not below {EYE_MM:g}")),
-        )
-    ]  # fmt: skip
+    yield at_least(
+        "sideways_tipping", worst.margin_deg, reserve, "°",
+        f"{worst.state}, the robot tips sideways at {worst.stance_deg:.1f}° of roll, of which play of the joints "
+        f"takes {worst.play_deg:.1f}°; {worst.margin_deg:.1f}° are left, of {reserve:g}° at least",
+        (*wider, *higher("e_coef", "ground_link_angle_deg", note="wider toes"),
+         *lower("fits.eye_mm", note=f"not below {EYE_MM:g}")),
+    )  # fmt: skip
     if limit := robot.workshop.safety.lateral_offset_mm:
         offset = robot.lateral_offset_mm
         side, way = ("left", higher("body.right_mm")) if offset > 0.0 else ("right", lower("body.right_mm"))
-        found.append(at_most(
+        yield at_most(
             "lateral_balance", abs(offset), limit, "mm",
             f"the centre of mass lies {abs(offset):.1f} mm to the {side} of the leg; {limit:g} mm are allowed",
             (*way, 'seats.battery = "balance" and seats.boards = "balance"'),
-        ))  # fmt: skip
-    return found
+        )  # fmt: skip
 
 
 def _width_mm(robot: Robot, reserve_deg: float) -> float | None:

@@ -35,8 +35,7 @@ class Socket:
 
     def pressure_mpa(self, moment_nmm: float, shear_n: float) -> float:
         """Return the largest pressure of the bar on a wall; glue that also holds its sides is neglected."""
-        per_length = 6.0 * moment_nmm / self.length_mm**2 + shear_n / self.length_mm
-        return per_length / self.bar.width_mm
+        return (6.0 * moment_nmm / self.length_mm**2 + shear_n / self.length_mm) / self.bar.width_mm
 
     def wall_mpa(self, moment_nmm: float, shear_n: float) -> float:
         """Return the tensile stress in the side walls, which hold the wall that the bar presses on."""

@@ -44,8 +44,8 @@ def main_leg(layout: Layout, workshop: Workshop) -> list[Drawing]:
     half = sections.thickness_mm / 2.0
     ankle = (layout.design.l2_mm, 0.0)
     # the leg's x axis points rest_angle below the body's, so directions grow by it
-    lever_angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
-    lever = cam.lever_length_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
+    lever_angle = cam.geometry.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    lever = cam.geometry.lever_mm * np.array([math.cos(lever_angle), math.sin(lever_angle)])
     pin = (layout.leg_pin_mm, 0.0)
     stop = layout.stop
     place = leg_bar_place(layout, holes)
@@ -135,8 +135,8 @@ def leg_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
     if holes.bearing is not None:
         for number, right in enumerate((low, high - holes.bearing.width_mm), start=1):
             yield bearing_part(f"hub_bearing_{number}", np.zeros(2), right, holes.bearing)
-    angle = cam.lever_start_rad + math.radians(layout.design.rest_angle_deg)
-    end = cam.lever_length_mm * np.array([math.cos(angle), math.sin(angle)])
+    angle = cam.geometry.lever_start_rad + math.radians(layout.design.rest_angle_deg)
+    end = cam.geometry.lever_mm * np.array([math.cos(angle), math.sin(angle)])
     roller = catalogue.bearings[workshop.bought.roller]
     yield bearing_part("roller", end, lateral.cam[0], roller)
     washer, nut, screw = roller_washer(roller, catalogue), catalogue.nuts["M3 nyloc"], catalogue.screws["M3"]

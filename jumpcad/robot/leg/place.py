@@ -53,11 +53,9 @@ def pin_hole(
     linkage: Linkage, around_leg: list[Obstacle], stop: StopPlace, lateral: Lateral, radius_mm: float,
     diameter_mm: float, axle_mm: float,
 ) -> PinHole:  # fmt: skip
-    """Return the hole for the pin at a radius from the hub.
+    """Return the hole for the pin at a radius from the hub, beside the bores of axles.
 
-    - `around_leg`: What stands beside the leg or sweeps past it, with a gap. Lever and front link move with the leg,
-      beside its pin, and are left out.
-    - `diameter_mm`, `axle_mm`: Of the hole, and of the axles whose bores the plate has.
+    `around_leg` stands beside the leg or sweeps past it, with a gap: not lever and front link, which move with the pin.
     """
     hub, plate = linkage.back_pivot_mm, lateral.left_plate
     rest, at_stop = (

@@ -15,7 +15,7 @@ from jumpcad.dimensions import LEVER_EYE_RADIUS_MM
 from jumpcad.findings import Basis, Finding, at_most, choose, higher, limit, lower
 from jumpcad.robot.leg import bar_limits
 from jumpcad.robot.leg.drawing import leg_hardware, legs
-from jumpcad.robot.load_case import IN_PLANE, LANDING, PUSH_OFF, WEAKER, LoadCase, load_case, stress_finding
+from jumpcad.robot.load_case import IN_PLANE, LANDING, PUSH_OFF, WEAKER, load_case, stress_finding
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sizing import leg_flex_share
 from jumpcad.robot.thing import Check, Thing
@@ -68,69 +68,42 @@ BASIS = {
 def leg_findings(robot: Robot) -> Iterator[Finding]:
     """Yield a finding for every way in which main leg, lever and front link could break."""
     case = load_case(robot)
-    yield from (*_leg(case), *bar_limits.leg_bar_findings(case), *_front_link(case), _eyes(case))
-
-
-def _leg(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of main leg and lever."""
-    layout, torque = case.layout, case.torque_nmm
-    sections, cam = layout.sections, layout.drive.cam
-    leg = sections.leg(case.shell)
-    stress = tapered_stress_mpa(leg, torque, float(np.abs(case.forces.leg_axial_n).max()))
-    yield stress_finding("leg_strength", "main leg in bending at release", stress, case.allowable_mpa, WEAKER, "leg")
-    holes = case.holes
+    layout, sections, holes, most = case.layout, case.layout.sections, case.holes, case.allowable_mpa
+    leg, cam, links = sections.leg(case.shell), layout.drive.cam, case.workshop.material("links")
+    stress = tapered_stress_mpa(leg, case.torque_nmm, float(np.abs(case.forces.leg_axial_n).max()))
+    yield stress_finding("leg_strength", "main leg in bending at release", stress, most, WEAKER, "leg")
     hub = max(2.0 * holes.hub_radius_mm, sections.leg_root_mm)
-    stress = bored_stress_mpa(torque, sections.thickness_mm, hub, holes.hub_bore_mm)
-    yield stress_finding(
-        "hub_strength", "main leg beside its hub's bore, springs loaded", stress, case.allowable_mpa,
-        choose("a smaller", "bought.leg_bearing") + WEAKER, "leg",
-    )  # fmt: skip
-    lever = Beam(
-        sections.thickness_mm, np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS), case.shell
-    )
+    stress = bored_stress_mpa(case.torque_nmm, sections.thickness_mm, hub, holes.hub_bore_mm)
+    ways = choose("a smaller", "bought.leg_bearing") + WEAKER
+    yield stress_finding("hub_strength", "main leg beside its hub's bore, springs loaded", stress, most, ways, "leg")
+    heights = np.linspace(sections.lever_root_mm, 2.0 * LEVER_EYE_RADIUS_MM, STATIONS)
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
-    stress = tapered_stress_mpa(lever, torque, along)
-    yield stress_finding(
-        "lever_strength", "lever in bending, springs loaded", stress, case.allowable_mpa, WEAKER, "lever"
-    )
-    if layout.leg_bar is not None:
-        return  # see `leg_bar_flex`
-    share = leg_flex_share(layout.design, leg, case.workshop.material("links").modulus_mpa, case.robot.spring)
-    allowed = case.workshop.safety.leg_flex_share
-    yield limit(
-        "leg_flex", 100.0 * (allowed - share), "%",
-        f"{100 * share:.1f} % of the springs' energy bends the main leg at release; {100 * allowed:g} % are allowed",
-        WEAKER, value=100.0 * share, allowed=100.0 * allowed, grows="leg",
-    )  # fmt: skip
-
-
-def _front_link(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of the front link: pulled at release, pushed at landing."""
-    bar = case.layout.sections.front(case.shell)
-    stress = float(bar.stress_mpa(0.0, case.front_n))
-    yield stress_finding(
-        "front_link_strength", "front link along its length at release", stress, case.allowable_mpa, WEAKER, "front"
-    )
-    load = buckling_load_n(bar, case.layout.design.l3_mm, case.workshop.material("links").modulus_mpa)
-    allowed = load / case.workshop.safety.printed_factor
-    if case.layout.leg_bar is not None:
-        return  # see `front_bar_buckling`
-    yield at_most(
-        "front_link_buckling", case.landing_n, allowed, "N",
-        f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
-        lower("c_coef", "carrying_link_mm") + higher("safety.landing_stop_mm", note="softer ground"),
-        grows="front",
-    )  # fmt: skip
-
-
-def _eyes(case: LoadCase) -> Finding:
-    """Return the finding of the printed eyes, along their layers."""
-    sections, holes = case.layout.sections, case.holes
+    stress = tapered_stress_mpa(Beam(sections.thickness_mm, heights, case.shell), case.torque_nmm, along)
+    yield stress_finding("lever_strength", "lever in bending, springs loaded", stress, most, WEAKER, "lever")
+    if layout.leg_bar is None:  # else `leg_bar_flex`
+        share = leg_flex_share(layout.design, leg, links.modulus_mpa, robot.spring)
+        allowed = case.workshop.safety.leg_flex_share
+        yield limit(
+            "leg_flex", 100.0 * (allowed - share), "%",
+            f"{100 * share:.1f} % of the springs' energy bends the main leg at release; {100 * allowed:g} % are "
+            "allowed", WEAKER, value=100.0 * share, allowed=100.0 * allowed, grows="leg",
+        )  # fmt: skip
+    yield from bar_limits.leg_bar_findings(case)
+    front = sections.front(case.shell)
+    stress = float(front.stress_mpa(0.0, case.front_n))
+    yield stress_finding("front_link_strength", "front link along its length at release", stress, most, WEAKER, "front")
+    if layout.leg_bar is None:  # else `front_bar_buckling`
+        load = buckling_load_n(front, layout.design.l3_mm, links.modulus_mpa)
+        allowed = load / case.workshop.safety.printed_factor
+        yield at_most(
+            "front_link_buckling", case.landing_n, allowed, "N",
+            f"front link under the whole landing force: {case.landing_n:.1f} of {allowed:.1f} N (Euler)",
+            lower("c_coef", "carrying_link_mm") + higher("safety.landing_stop_mm", note="softer ground"),
+            grows="front",
+        )  # fmt: skip
     force = max(case.ankle_n, case.front_n, case.landing_n)
-    stress = eye_stress_mpa(force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.eye(case.layout.axle_mm))
-    return stress_finding(
-        "eye_strength", "eyes of main leg and front link", stress, case.allowable_mpa, WEAKER, "thickness"
-    )
+    stress = eye_stress_mpa(force, sections.thickness_mm, 2.0 * sections.eye_radius_mm, holes.eye(layout.axle_mm))
+    yield stress_finding("eye_strength", "eyes of main leg and front link", stress, most, WEAKER, "thickness")
 
 
 LEG = Thing(legs, leg_hardware, (Check(leg_findings, BASIS),))

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from numpy.lib.stride_tricks import sliding_window_view
 
-from jumpcad.dimensions import MOTOR_CLAMP_MM, TAB_MM, TRAY_MM
+from jumpcad.dimensions import MOTOR_CLAMP_MM, SPRING_BOSS_WALL_MM, TAB_MM, TRAY_MM
 from jumpcad.drive.motor import window_mm
 from jumpcad.findings import Basis, Finding, at_most, higher
 from jumpcad.mechanism.model import BODY
@@ -67,7 +67,8 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     around = socket_outline(layout) - taps
     seat, rim = lateral.motor[0], lateral.motor[1] - MOTOR_CLAMP_MM
     slabs = [(y0 + floor, y1, whole - union([through, window, bores])), (y0, y0 + floor, whole - (through + window))]
-    around_pin = ring(layout.spring_boss_outer_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
+    boss_mm = layout.axle_mm + 2.0 * SPRING_BOSS_WALL_MM
+    around_pin = ring(boss_mm, holes.running(layout.axle_mm), tuple(layout.spring_pin_mm))
     pin_boss = (y1, y1 + layout.spring_boss_mm, around_pin - (cavity + taps))
     bosses = [_boss(layout, holes, y1, y1 + layout.boss_mm), pin_boss]
     levels = sorted({y1, seat, rim, *(top for _, top, _ in bosses)})
@@ -162,33 +163,31 @@ BASIS = {
 }
 
 
-def seat_finding(robot: Robot) -> list[Finding]:
-    """Return `plate_seat`, of the plate that an axle or pin loads most."""
+def seat_finding(robot: Robot) -> Iterator[Finding]:
+    """Yield `plate_seat`, of the plate that an axle or pin loads most."""
     case = load_case(robot)
     plate = case.layout.lateral.left_plate
     seat, longer = plate[1] - plate[0] - case.layout.floor_mm, {"leg_axle": case.layout.boss_mm}
     worst = max(beam.plate_load_n / (seat + longer.get(name, 0.0)) for name, beam in case.beams.items())
     allowable = case.workshop.material("body").strength_in_plane_mpa / case.workshop.safety.printed_factor
     what, stress = "plates under axles and pins", worst / case.layout.axle_mm
-    return [stress_finding("plate_seat", what, stress, allowable, higher("body.plate_mm"), "plate")]
+    yield stress_finding("plate_seat", what, stress, allowable, higher("body.plate_mm"), "plate")
 
 
 ENGRAVING_BASIS = {"engraving": Basis("letters of the name that the font lacks = 0", "character map of the font")}
 
 
-def engraving_findings(robot: Robot) -> list[Finding]:
-    """Return `engraving` for a name with letters that cannot be engraved; they are left out."""
+def engraving_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield `engraving` for a name with letters that cannot be engraved; they are left out."""
     lacking = "".join(dict.fromkeys(letter for letter in robot.name if not engravable(letter)))
     if not lacking:
-        return []
-    return [
-        at_most(
-            "engraving", len(lacking), 0, "letters",
-            f"the engraving's font lacks {len(lacking)} of the letters, {lacking!r}: left out on the plates of "
-            f"{robot.name!r}",
-            "use Latin, Greek or Cyrillic letters if the plates must show the whole name", "warning",
-        )
-    ]  # fmt: skip
+        return
+    yield at_most(
+        "engraving", len(lacking), 0, "letters",
+        f"the engraving's font lacks {len(lacking)} of the letters, {lacking!r}: left out on the plates of "
+        f"{robot.name!r}",
+        "use Latin, Greek or Cyrillic letters if the plates must show the whole name", "warning",
+    )  # fmt: skip
 
 
 SCREW_END_MM = 4.0

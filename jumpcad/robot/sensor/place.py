@@ -50,7 +50,6 @@ PLACE_WANTED_MM = np.array([0.0, 14.0])
 class SensorNeeds:
     """A switch and what its place depends on.
 
-    - `part`, `travel`: The switch, and the positions of its plunger.
     - `axial_mm`: How far the land's height under the plunger may be from the drawing, either way.
     - `along_mm`: How far land and plunger may be off along the track, either way.
     - `stop_rad`: How far the cam turns at most from the switch's contact until it stands.
@@ -114,18 +113,13 @@ class SensorPlace:
         """How far the land presses the plunger beyond its operating position, as drawn."""
         return self.needs.travel.operating_mm - middle_mm(self.needs.travel)
 
-    @property
-    def ramp_mm(self) -> float:
-        """Height of a ramp up to where the switch operates, as drawn."""
-        return self.depth_mm - self.press_mm
-
     def land_rad(self, above_mm: float, lift_rad: float) -> tuple[float, float]:
         """Return where the land begins and ends at a height above the groove.
 
         Counter-clockwise from x at cam angle 0. Both ramps rise at 45°; at the height at which the switch operates they
         are as far from the drop as `ready_rad` and `open_rad` say.
         """
-        nearer = (above_mm - self.ramp_mm) / self.radius_mm
+        nearer = (above_mm - (self.depth_mm - self.press_mm)) / self.radius_mm
         begin = self.direction_rad + lift_rad - self.ready_rad + nearer
         return begin, self.direction_rad + lift_rad + self.open_rad - nearer
 
@@ -146,16 +140,14 @@ def sensor_place(
 ) -> SensorPlace:  # fmt: skip
     """Return the place of the switch beside the cam gear: along its track, where the plate is free.
 
-    - `obstacles`: What is in the body and moves about it.
-    - `axles`: Places of axles and pins that the plate holds, by name; the switch keeps away from their seats.
-    - `motor`: The motor's shaft, which may end in the plate.
+    It keeps away from the seats of `axles`, the axles and pins that the plate holds, and from the motor's shaft.
     """
     travel, half = needs.travel, needs.half_mm
     low, high, width = _track_mm(drive, needs)
     depth = needs.layer_mm * math.ceil(
         (travel.free_mm + FREE_MM + needs.axial_mm - middle_mm(travel)) / needs.layer_mm - 1e-9
     )
-    thickness = drive.train.stages[-1].face_width_mm
+    thickness = drive.train.stages[-1].wheel.face_width_mm
     if thickness - depth < WEB_MIN_MM:
         raise CannotBuildError(
             f"no room for the sensor's groove: {depth:.1f} mm deep, it leaves {thickness - depth:.1f} of the cam "

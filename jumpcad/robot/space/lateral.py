@@ -56,17 +56,11 @@ def lateral_stack(
     leg_mm: float, lug_mm: float, roller_width_mm: float, spring_length_mm: float, gear_widths_mm: tuple[float, ...],
     motor: Motor, plate_mm: float, tray_width_mm: float, roller_screw_mm: float, right_mm: float = 0.0,
 ) -> Lateral:  # fmt: skip
-    """Stack everything across the robot.
+    """Stack everything across the robot, with the loaded coils of springs and the gears from the cam's to the motor's.
 
-    - `leg_mm`, `lug_mm`: Thickness of legs and of the foot's lugs beside them.
-    - `roller_width_mm`, `spring_length_mm`: Width of the roller bearing, and length of one spring's loaded coil.
-    - `gear_widths_mm`: Face widths of the gear planes, the cam gear's first, the motor pinion's last.
-    - `motor`: The gear motor, across the robot.
-    - `plate_mm`: Thickness of the body plates.
-    - `tray_width_mm`: Least width that the electronics need between the plates.
-    - `roller_screw_mm`: Length of the roller's screw below its head, which lies on the roller; its end moves past the
-      right plate.
-    - `right_mm`: By how much the right plate stands further out than it must.
+    `tray_width_mm` is the least that the electronics need between the plates; `roller_screw_mm` the length of the
+    roller's screw below its head, which lies on the roller: its end moves past the right plate, which stands `right_mm`
+    further out than it must.
     """
     half = leg_mm / 2.0
     cam = (half + ROLLER_WASHER_MM, half + ROLLER_WASHER_MM + roller_width_mm)

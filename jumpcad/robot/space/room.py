@@ -68,12 +68,8 @@ def clearance(
 ) -> Array:  # fmt: skip
     """Return the smallest distance (k,) from k boxes to any obstacle that shares an interval of y; negative inside.
 
-    What is farther away than `within_mm` may be left out: the distance is then larger, or infinite.
-
-    - `obstacles`: What the boxes must not touch.
-    - `centres_mm`, `angles_rad`: Box centres (k, 2) and their turns in x-z (k,) or one for all.
-    - `half_mm`: Half sizes (2,) of all boxes; (0, 0) measures from points.
-    - `y_mm`: Interval of y that the boxes occupy.
+    Centres are (k, 2), turns in x-z (k,) or one for all; all have the half sizes (2,), of which (0, 0) measures from
+    points. What is farther away than `within_mm` may be left out: the distance is then larger, or infinite.
     """
     angles = np.broadcast_to(np.asarray(angles_rad, dtype=float), len(centres_mm))
     cloud = Cloud.of(obstacles, y_mm).near(centres_mm, half_mm, within_mm)

@@ -29,14 +29,10 @@ def link_obstacles(
     linkage: Linkage, sections: Sections, lever_mm: float, lever_start_rad: float, lever_y: tuple[float, float],
     gap_mm: float, reach_rad: float,
 ) -> list[Obstacle]:  # fmt: skip
-    """Return the room that main leg, lever, front link and foot sweep.
+    """Return the room that main leg, lever, front link and foot sweep up to an angle past rest, with a gap all around.
 
-    - `linkage`, `sections`: The mechanism and its dimensions.
-    - `lever_mm`, `lever_start_rad`: Length of the lever and its direction at rest, counter-clockwise from the body's x
-      axis.
-    - `lever_y`: Interval of y that the lever occupies with its roller, screw and nut.
-    - `gap_mm`: Added all around.
-    - `reach_rad`: How far past rest the links go.
+    `lever_start_rad` is the lever's direction at rest, counter-clockwise from the body's x axis, `lever_y` the interval
+    of y that it occupies with its roller, screw and nut.
     """
     travel = np.linspace(linkage.travel_rad[0], reach_rad, POSITIONS)
     pose = linkage.pose(travel)
@@ -104,7 +100,9 @@ def swept_obstacles(
     """Return the room that the links sweep, with a clearance."""
     lever_y = (lateral.roller_screw[0], lateral.roller_screw[1] + LEVER_HEAD_MM)
     cam = drive.cam
-    return link_obstacles(linkage, sections, cam.lever_length_mm, cam.lever_start_rad, lever_y, gap_mm, reach_rad)
+    return link_obstacles(
+        linkage, sections, cam.geometry.lever_mm, cam.geometry.lever_start_rad, lever_y, gap_mm, reach_rad
+    )
 
 
 def hub_obstacles(hub: Array, drive: Drive, lateral: Lateral, gap_mm: float = CLEAR_MM) -> list[Obstacle]:

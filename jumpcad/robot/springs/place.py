@@ -46,7 +46,7 @@ def spring_pin_place(obstacles: list[Obstacle], hub: Array, spring: TorsionSprin
 
     The springs' turns fit one direction only.
     """
-    half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.pin_radius_mm
+    half, radius = (spring.arms.pin_mm / 2.0,) * 2, spring.arms.pin_radius_mm
     (place,) = places = around(hub, radius, np.array([spring.plate_pin_rad]))
     ways = lower("stiffness_nmm_per_deg", note="a smaller spring") + higher("carrying_link_mm")
     try:

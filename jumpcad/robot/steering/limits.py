@@ -23,6 +23,9 @@ ROUGHEST = 1.2
 """Largest friction of rubber on a floor; judgement: on dry concrete up to 1.0."""
 GRIP = 1.5
 """Least grip of the wheel over what it needs; judgement."""
+LEAN_DEG = 2.0
+"""Largest lean onto one toe: simulated, at 1.7° the worst of 32 own landings of `best-steered` is as without the wheel,
+at 2.4° one toe's push rolls it onto its cage's side."""
 GIVEN, POSITIONS = 20.0, 200
 """Largest share of the springs' energy (%) that is given before the wheel is in the air; judgement: the foot stands
 still until then. Leg angles at which that is looked at."""
@@ -42,6 +45,10 @@ BASIS = {
         "share of the weight on the toe to which the robot leans ≥ 0 %, by dip·(eye to toe)/(eye to wheel)/(half width "
         "of the toes); its other supports are that edge of the nose and the wheel, which rolls below its axle",
         "statics of three supports",
+    ),
+    "steering_lean": Basis(
+        f"lean onto that toe ≤ {LEAN_DEG:g}°: released, one toe pushes, and the robot rolls in its flight",
+        "statics of three supports; limit: simulated landings",
     ),
     "steering_air": Basis(
         f"share of the springs' energy given until the wheel is above the feet's plane ≤ {GIVEN:g} %, the foot flat; "
@@ -170,6 +177,11 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
         f"on its wheel it leans by {found.lean_deg:.1f}°; nose, wheel and toe bear {shares[0]:.0f}, {shares[1]:.0f} "
         f"and {shares[2]:.1f} % of the weight; below 0 both toes lift, and it stands on nose and wheel",
         higher("steering.dip_mm") + lower("body.toe_half_width_mm"), "warning",
+    )  # fmt: skip
+    yield at_most(
+        "steering_lean", found.lean_deg, LEAN_DEG, "°",
+        f"on its wheel it leans by {found.lean_deg:.1f}°; released, one toe pushes more than the other",
+        (*higher("body.toe_half_width_mm"), "let it land on grass, a mat or a carpet"), "warning",
     )  # fmt: skip
     yield _air(robot, place)
     most = ROUGHEST * float(found.loads_n[1]) * place.radius_mm / 1000.0

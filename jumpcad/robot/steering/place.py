@@ -192,7 +192,7 @@ def _miss_mm(layout: Layout, workshop: Workshop, point_mm: Array) -> float:
     early = cam.law.lift_rad - layout.sensor.ready_rad - layout.sensor.scatter_rad
     torque = 1000.0 * design.stiffness_nm_per_rad * (design.compression_rad + layout.drive.spring.preload_rad)
     section = sections.thickness_mm * sections.lever_root_mm**3 / 12.0
-    bent = torque * cam.lever_length_mm / (3.0 * workshop.material("links").modulus_mpa * section)
+    bent = torque * cam.geometry.lever_mm / (3.0 * workshop.material("links").modulus_mpa * section)
     high = _height_mm(layout, point_mm, bent - float(cam.wind_rad(np.array([early]))[0]))
     low = _height_mm(layout, point_mm, layout.linkage.travel_rad[0])
     return high - low + workshop.safety.room_reserve_mm

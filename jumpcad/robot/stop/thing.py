@@ -152,7 +152,7 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         SOFTER,
     )  # fmt: skip
     cam = robot.layout.drive.cam
-    free = GIVE_ROOM_RAD + cam.geometry.clearance_mm / cam.lever_length_mm
+    free = GIVE_ROOM_RAD + cam.geometry.clearance_mm / cam.geometry.lever_mm
     degrees, room = math.degrees(blow.give_rad), math.degrees(free)
     yield at_most(
         "stop_clearance", degrees, room, "°",

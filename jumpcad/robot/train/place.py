@@ -11,17 +11,8 @@ from jumpcad.drive import Drive
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy
+from jumpcad.robot.space import room as rooms
 from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.room import (
-    LONGER_BODY,
-    Obstacle,
-    best_place,
-    box_obstacle,
-    clearance,
-    disc,
-    ring_candidates,
-    shortfall,
-)
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
@@ -44,19 +35,19 @@ def require_shaft(motor: Motor, lateral: Lateral) -> None:
         )  # fmt: skip
 
 
-def require_gear_room(hub_things: list[Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
+def require_gear_room(hub_things: list[rooms.Obstacle], axis: Array, tip_mm: float, y: Interval) -> None:
     """Reject a cam gear that collides with the springs or an axle."""
-    room = clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y, tip_mm)[0] - tip_mm
+    room = rooms.clearance(hub_things, axis[None], (0.0, 0.0), 0.0, y, tip_mm)[0] - tip_mm
     if room < 0:
         raise CannotBuildError(
-            f"the cam gear's tip radius of {tip_mm:.1f} mm is {shortfall(room)} too large beside the leg's axle: "
+            f"the cam gear's tip radius of {tip_mm:.1f} mm is {rooms.shortfall(room)} too large beside the leg's axle: "
             "allow a stronger motor (a smaller ratio), or a smaller gear module",
             "gear_room", room,
         )  # fmt: skip
 
 
 def train_places(
-    obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array, ear_mm: float = CAP_EAR_MM
+    obstacles: list[rooms.Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array, ear_mm: float = CAP_EAR_MM
 ) -> tuple[Array | None, Array, float]:
     """Return the idler's place (two stages), the motor's, and the motor's direction."""
     stages, motor = drive.train.stages, drive.train.motor
@@ -65,14 +56,14 @@ def train_places(
     tip, ways = stages[0].pinion.tip_radius_mm, _smaller(motor)
     meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
 
-    def motor_place(axis: Array, extra: list[Obstacle]) -> tuple[Array, float]:
-        places, angles = ring_candidates(axis, stages[0].centre_distance_mm)
+    def motor_place(axis: Array, extra: list[rooms.Obstacle]) -> tuple[Array, float]:
+        places, angles = rooms.ring_candidates(axis, stages[0].centre_distance_mm)
         others = [obstacle for obstacle in obstacles + extra if obstacle.name != meshes_with]
-        free = clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1], tip) >= tip
+        free = rooms.clearance(others, places, (0.0, 0.0), 0.0, lateral.gears[-1], tip) >= tip
         if not free.any():
             raise CannotBuildError(f"no room for the pinion of {tip:.1f} mm radius on the motor", ways=ways)
         places, angles = places[free], angles[free]
-        index = best_place(
+        index = rooms.best_place(
             "motor", obstacles + extra, places, half, angles, body_y,
             lambda p: np.linalg.norm(p - MOTOR_WANTED_MM, axis=1), ways,
         )  # fmt: skip
@@ -104,37 +95,37 @@ def train_places(
 
 def _smaller(motor: Motor) -> Remedy:
     smaller = f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
-    return (*LONGER_BODY, smaller)
+    return (*rooms.LONGER_BODY, smaller)
 
 
-def _idler_places(obstacles: list[Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array) -> Array:
+def _idler_places(obstacles: list[rooms.Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array) -> Array:
     """Return the places (n, 2) of an idler around the cam gear in which its wheel and its axle are free."""
     first, last = drive.train.stages[0], drive.train.stages[-1]
-    places, _ = ring_candidates(cam_axis, last.centre_distance_mm)
+    places, _ = rooms.ring_candidates(cam_axis, last.centre_distance_mm)
     tip = first.wheel.tip_radius_mm
-    wheel_free = clearance(obstacles, places, (0.0, 0.0), 0.0, lateral.gears[1], tip) - tip
+    wheel_free = rooms.clearance(obstacles, places, (0.0, 0.0), 0.0, lateral.gears[1], tip) - tip
     others = [obstacle for obstacle in obstacles if obstacle.name != "cam gear"]  # which its pinion meshes with
-    axle_free = clearance(others, places, (0.0, 0.0), 0.0, lateral.inside, SPACER_RADIUS_MM) - SPACER_RADIUS_MM
+    axle_free = rooms.clearance(others, places, (0.0, 0.0), 0.0, lateral.inside, SPACER_RADIUS_MM) - SPACER_RADIUS_MM
     return np.asarray(places[np.minimum(wheel_free, axle_free) >= 0])
 
 
-def idler_obstacles(place: Array, drive: Drive, lateral: Lateral) -> list[Obstacle]:
+def idler_obstacles(place: Array, drive: Drive, lateral: Lateral) -> list[rooms.Obstacle]:
     """Return the idler's wheel, pinion and axle as obstacles."""
     first, last = drive.train.stages[0], drive.train.stages[-1]
     return [
-        disc("idler wheel", place, first.wheel.tip_radius_mm + CLEAR_MM, lateral.gears[1]),
-        disc("idler pinion", place, last.pinion.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
-        disc("idler axle", place, SPACER_RADIUS_MM + CLEAR_MM, lateral.inside),
+        rooms.disc("idler wheel", place, first.wheel.tip_radius_mm + CLEAR_MM, lateral.gears[1]),
+        rooms.disc("idler pinion", place, last.pinion.tip_radius_mm + CLEAR_MM, lateral.gears[0]),
+        rooms.disc("idler axle", place, SPACER_RADIUS_MM + CLEAR_MM, lateral.inside),
     ]
 
 
 def train_obstacles(
     motor: Array, angle_rad: float, idler: Array | None, drive: Drive, lateral: Lateral, ear_mm: float = CAP_EAR_MM
-) -> list[Obstacle]:
+) -> list[rooms.Obstacle]:
     """Return motor, its pinion, and the idler where there is one."""
     pinion = drive.train.stages[0].pinion
     obstacles = [
-        box_obstacle("motor", motor, socket_half_mm(drive.train.motor, ear_mm), angle_rad, lateral.inside),
-        disc("pinion", motor, pinion.tip_radius_mm + CLEAR_MM, lateral.gears[-1]),
+        rooms.box_obstacle("motor", motor, socket_half_mm(drive.train.motor, ear_mm), angle_rad, lateral.inside),
+        rooms.disc("pinion", motor, pinion.tip_radius_mm + CLEAR_MM, lateral.gears[-1]),
     ]
     return obstacles if idler is None else [*obstacles, *idler_obstacles(idler, drive, lateral)]

@@ -42,7 +42,7 @@ def drive_findings(robot: Robot) -> list[Finding]:
 def _dog(robot: Robot) -> Finding:
     """Return the finding of the cam's dog, loaded and at the impact."""
     case, gears = load_case(robot), robot.workshop.material("gears")
-    stress = case.dog_stress_mpa(max(robot.layout.drive.cam.peak_torque_nm, robot.release.blow_nm))
+    stress = case.dog_stress_mpa(max(robot.layout.drive.cam.law.peak_torque_nm, robot.release.blow_nm))
     allowable = gears.strength_interlayer_mpa / robot.workshop.safety.printed_factor
     ways = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the gears")
     return stress_finding(

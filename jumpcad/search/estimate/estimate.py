@@ -52,10 +52,9 @@ STATICS = ("tips", "too_weak")
 class FittedFigures:
     """Coefficients of every figure that all robots have; of its logarithm where it is positive in all of them.
 
-    So masses stay positive. Weighted ridge regression about a point; see `of`. There are coefficients (features +
-    layout figures,) of logarithms of what is `positive` and of `others`, by name, and (layout figures, features) of the
-    layout's own figures. `sizes` are typical margins of the limits that rejected robots: their figures are
-    arcsinh(margin / size).
+    Weighted ridge regression about a point; see `of`. Coefficients (features + layout figures,) of logarithms of what
+    is `positive` and of `others`, by name, and (layout figures, features) of the layout's own figures. `sizes` are
+    typical margins of the limits that rejected robots: their figures are arcsinh(margin / size).
     """
 
     def __init__(
@@ -117,8 +116,7 @@ def _solver(rows: Array, weights: Array, d: int) -> Array:
     products = d * (d + 1) // 2
     more = rows.shape[1] - 1 - d - products
     ridge = [1e-9, *[RIDGE] * d, *[second] * products, *[RIDGE] * more]
-    found: Array = np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T)
-    return found
+    return np.asarray(np.linalg.solve(weighted.T @ rows + weights.sum() * np.diag(ridge), weighted.T))
 
 
 def features(units: Array, scale: Array | float = 1.0) -> Array:
@@ -147,10 +145,7 @@ class Estimate:
 
 
 class Estimator:
-    """Estimates variants of one search; all follows from the trials that it learned.
-
-    Where the workshop varies, layouts alone are known.
-    """
+    """Estimates variants of one search from the trials that it learned; where the workshop varies, layouts alone."""
 
     def __init__(self, space: Space, model: PrintedModel, objective: Objective) -> None:
         self._space, self._model, self._objective = space, model, objective
@@ -218,7 +213,6 @@ class Estimator:
             return None
 
     def _jump(self, design: Design, figures: Mapping[str, float]) -> Estimate:
-        """Return the estimate of a design's robot with these figures."""
         assert self._like is not None
         assert self._figures is not None
         if errors(geometry_findings(design)):

@@ -157,10 +157,7 @@ def quick_robot(design: Design) -> Mechanism | None:
 
 
 def layout_findings(error: CannotBuildError) -> tuple[Finding, ...]:
-    """Return the limit that a refused layout missed, with its negative margin, if it was a number.
-
-    A layout ends with its first refusal. Studies keep the missing millimetres, which are learned.
-    """
+    """Return the limit that a refused layout missed, with its negative margin, if it was a number: it is learned."""
     if error.margin is None:
         return ()
     return (Finding(error.limit, "error", error.margin, error.unit, str(error), ""),)

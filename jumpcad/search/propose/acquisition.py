@@ -5,11 +5,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import minimize
 
 from jumpcad.search.propose.posterior import SearchPosterior
-from jumpcad.search.space import Space
+from jumpcad.search.space import Space, apart
 from jumpcad.search.study.variant import Variant
 from jumpcad.transforms import Array
 
@@ -17,8 +16,8 @@ CANDIDATES = 512
 """Points spread over the space."""
 LOCAL = 64
 """Points near each of the best designs."""
-STARTS = 6
-"""Points from which the acquisition is maximised locally."""
+STARTS, RANKED, APART = 6, 256, math.nextafter(0.05, 1.0)
+"""Points from which the acquisition is maximised locally, among the best, and their least distance along some axis."""
 REDRAWN = 0.3
 """Probability with which a name is drawn again near a good design."""
 DIGITS = 4
@@ -62,10 +61,8 @@ def propose(
 ) -> Proposal | None:  # fmt: skip
     """Return the variant with the largest acquisition found, or None if no candidate is admitted.
 
-    `best` is the score to be improved; near the points (k, d) of the `elite`, the best designs so far, more candidates
-    are drawn. `admits` says whether a variant may be proposed: it is new, and the model admits it. The `penalty`, of
-    points (m, d) to (m,), 0 where allowed, is subtracted from the logarithm of the acquisition. Points (d,) that `held`
-    are candidates too, and worth `HELD_BONUS` more.
+    `best` is the score to be improved; near the points (k, d) of the `elite` more candidates are drawn. The `penalty`
+    of points (m, d) is subtracted from the logarithm. Points (d,) that `held` are candidates, worth `HELD_BONUS` more.
     """
 
     def log_acquisition(points: Array) -> Array:
@@ -82,7 +79,7 @@ def propose(
     points = space.snap(np.vstack(candidates).round(DIGITS))
     values = log_acquisition(points)
     order = np.argsort(-values, kind="stable")
-    starts = points[_apart(points, order, STARTS)]
+    starts = points[order[apart(points[order[:RANKED]], APART, STARTS)]]
     climbed = _climb(space, log_acquisition, starts, _FIRST_STEPS)
     highest = climbed[[log_acquisition(climbed).argmax()]]
     tops = space.snap(np.vstack([_climb(space, log_acquisition, highest, _STEPS), climbed]).round(DIGITS))
@@ -97,17 +94,6 @@ def propose(
             improvement, feasible = posterior.log_improvement(at, best), posterior.log_feasible(at)
             return Proposal(variant, points[index], float(improvement[0]), float(feasible[0]))
     return None
-
-
-def _apart(points: Array, order: npt.NDArray[np.intp], count: int) -> list[int]:
-    """Return the first `count` indices of an order whose points are at least 0.05 apart along some axis."""
-    chosen: list[int] = []
-    for index in order[:256]:
-        if all(np.abs(points[index] - points[other]).max() > 0.05 for other in chosen):
-            chosen.append(int(index))
-        if len(chosen) == count:
-            break
-    return chosen
 
 
 def _climb(space: Space, function: Callable[[Array], Array], starts: Array, steps: int) -> Array:

@@ -49,9 +49,8 @@ Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], l
 def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool:
     """Search for the highest score; return whether it ended because its last steps gained too little.
 
-    The evaluator's trials so far, and those of its prior study, are learned from; the proposals of a batch are made
-    without each other's results. If it `polls`, neighbours of the best printed robot are evaluated where proposals gain
-    nothing.
+    Proposals of a batch are made without each other's results. If it `polls`, neighbours of the best printed robot are
+    evaluated where proposals gain nothing.
     """
     start = len(evaluator.trials)
 
@@ -164,11 +163,7 @@ def unproposed(
 ) -> Callable[[Variant], bool]:
     """Return a function that tells whether a variant may be proposed together with these."""
     taken = {proposal.variant.key for proposal in proposals}
-
-    def admits(variant: Variant) -> bool:
-        return variant.key not in taken and may_hold(variant) and evaluator.admits(variant)
-
-    return admits
+    return lambda variant: variant.key not in taken and may_hold(variant) and evaluator.admits(variant)
 
 
 def known_trials(evaluator: Evaluator) -> list[Trial]:

@@ -74,7 +74,6 @@ class Fitness:
         self._prior = {one.key: one for one in evaluator.prior if one.evaluation.verdict != SCREENED}
 
     def objectives(self, trial: Any) -> Any:
-        """Return the fitness of a feasible trial."""
         return trial.score
 
     def of_population(self, ga: Any, population: Any, _indices: Any) -> list[Any]:

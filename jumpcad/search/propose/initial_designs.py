@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from jumpcad.search.methods import START
-from jumpcad.search.space import Space
+from jumpcad.search.space import Space, apart
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.request import Stage
 from jumpcad.search.study.trial import Trial, searched
@@ -34,16 +34,11 @@ def first_points(
 ) -> Array:  # fmt: skip
     """Return at most `count` points (count, dimension) of the unit cube to start with, evenly spread ones first.
 
-    Half of them are the first of the `ranked` points (dimension,) that are apart. What `admits` does not admit is
-    passed over, of twice as many evenly spread points too.
+    Half of them are the first `ranked` points (d,) that are apart. What `admits` does not admit is passed over.
     """
     spread = space.spread(2 * count, generator)
-    chosen: list[Array] = []
-    for point in ranked:
-        if len(chosen) == count // 2:
-            break
-        if all(np.abs(point - other).max() >= APART for other in chosen) and admits(space.to_variant(point)):
-            chosen.append(point)
+    places = apart(ranked, APART, count // 2, lambda index: admits(space.to_variant(ranked[index])))
+    chosen = [ranked[index] for index in places]
     admitted = (point for point in spread if admits(space.to_variant(point)))
     even = list(itertools.islice(admitted, count - len(chosen)))
     return np.array([*even, *chosen]).reshape(-1, space.dimension)

@@ -46,7 +46,8 @@ def run_paper(evaluator: Evaluator, stage: Stage) -> None:
         run_genetic(evaluator, Stage(genetic, "ga", share, run=run))
         found = best_trial(evaluator.trials[before:])
         best += [found] if found else []
-    centre = max(best, key=_efficiency) if best else best_trial(evaluator.trials)
+    most = max(best, key=lambda one: (one.score or 0.0) / energy_j(one.design), default=None)
+    centre = most or best_trial(evaluator.trials)
     if centre is None:
         return
     for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):
@@ -63,11 +64,6 @@ def run_paper(evaluator: Evaluator, stage: Stage) -> None:
 def seeds(seed: int) -> list[int]:
     """Return the seeds of the runs of the genetic algorithm: other ones for every seed of a search."""
     return [int(one) for one in np.random.SeedSequence([seed, 9]).generate_state(RUNS)]
-
-
-def _efficiency(trial: Trial) -> float:
-    """Return the score for each joule in the springs."""
-    return (trial.score or 0.0) / energy_j(trial.design)
 
 
 @contextmanager

@@ -118,8 +118,7 @@ class ParetoFitness(Fitness):
 def run_nsga2(evaluator: Evaluator, stage: Stage) -> None:
     """Search the front by PyGAD's NSGA-II; a rejected design is dominated by every other one.
 
-    Designs of the front of a prior study, and of those to begin with, make half of the first population, evenly chosen
-    if there are more.
+    Designs that lie evenly on the front of what is known make half of the first population.
     """
     half = POPULATION // 2
     parents = {"num_parents_mating": half, "parent_selection_type": "nsga2", "keep_elitism": 0, "keep_parents": -1}

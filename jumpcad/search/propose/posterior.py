@@ -59,9 +59,8 @@ class SearchPosterior:
     ) -> Self:  # fmt: skip
         """Learn from trials in a space, starting from the hyperparameters `thetas` of an earlier posterior.
 
-        They are fitted anew if `fit`; what has none yet always is. `guesses` are points (d,) and guessed scores of
-        variants, by their keys; of trials too. `score_of` returns the score of a trial that is learned, also of one
-        that only misses what is required.
+        They are fitted anew if `fit`; what has none yet always is. `guesses` are points (d,) and guessed scores by the
+        keys of variants; `score_of` returns the score that is learned of a trial.
         """
         scale = space.scale
         x = np.array([space.to_unit(trial.variant) for trial in trials]).reshape(-1, space.dimension) / scale
@@ -72,7 +71,8 @@ class SearchPosterior:
         constraints = {}
         for name, margins in constraint_margins(trials).items():
             known = np.isfinite(margins)
-            constraints[name] = learn(name, x[known], _scaled(margins[known]))
+            scaled = np.arcsinh(margins[known] / typical_size(margins[known]))  # large ones compressed, with their sign
+            constraints[name] = learn(name, x[known], scaled)
         found = [(point, trial, score_of(trial)) for point, trial in zip(x, trials, strict=True)]
         jumps = [(point, trial) for point, trial, score in found if score is not None]
         points = np.array([point for point, _ in jumps]).reshape(-1, space.dimension)
@@ -142,8 +142,7 @@ def warped(score: npt.ArrayLike) -> Array:
     The range grows with the square of the take-off speed, and the speed about linearly with the parameters.
     """
     score = np.asarray(score, dtype=float)
-    root: Array = np.sign(score) * np.sqrt(np.abs(score))
-    return root
+    return np.asarray(np.sign(score) * np.sqrt(np.abs(score)))
 
 
 def unwarped(values: Array) -> Array:
@@ -176,11 +175,6 @@ def _verdict(evaluation: Evaluation) -> float:
     return 1.0 if evaluation.feasible or evaluation.only_misses_required else -1.0
 
 
-def _scaled(margins: Array) -> Array:
-    """Return margins in units of their typical size, large ones compressed; the sign is kept."""
-    return np.arcsinh(margins / typical_size(margins))
-
-
 def _log_h(z: Array) -> Array:
     """Return log(φ(z) + z·Φ(z)), exact far below the mean too (Ament et al., NeurIPS 2023, eq. 9)."""
     z = np.asarray(z, dtype=float)
@@ -191,5 +185,4 @@ def _log_h(z: Array) -> Array:
     tail = np.log(ratio) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi)
     # 1 + z·Φ/φ loses its digits below -1e3; there it is 1/z² to first order.
     tail = np.where(far < -1e3, -2.0 * np.log(-far) - 0.5 * far**2 - 0.5 * np.log(2 * np.pi), tail)
-    value: Array = np.where(z > -1.0, np.log(plain), tail)
-    return value
+    return np.asarray(np.where(z > -1.0, np.log(plain), tail))

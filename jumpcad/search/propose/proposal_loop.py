@@ -60,14 +60,14 @@ class ProposalLoop:
         self._failed: set[Key] = set()
 
     @property
-    def _estimates(self) -> bool:
-        return self._dry_run is not None and self._dry_run.estimator.ready
+    def _ready(self) -> DryRun | None:
+        """The dry run, once it estimates."""
+        return self._dry_run if self._dry_run is not None and self._dry_run.estimator.ready else None
 
     def propose(self, ask: Callable[..., Proposal | None], best: float) -> Proposal | None:
         """Return a proposal of `ask`, which is called with a posterior and the points that held in a dry run for it.
 
-        Its own mean is then believed, as if it had been measured, until the step is over. `best` is the score to be
-        improved.
+        Its own mean is then believed until the step is over. `best` is the score to be improved.
         """
         held: list[Proposal] = []
         self._look_around()
@@ -109,20 +109,19 @@ class ProposalLoop:
         `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are tried.
         `within` is a share of the best's estimate.
         """
-        best = best_trial(trials)
-        if not self._estimates or best is None:
+        best, dry_run = best_trial(trials), self._ready
+        if dry_run is None or best is None:
             return None
-        assert self._dry_run is not None
         points = neighbours(self._space, best, generator, wider)
-        points += self._bred(generator)
+        points += self._bred(dry_run, generator)
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
-        self._dry_run.look_at(one for _, one in new)
-        offers, known = [], self._dry_run.known(self._trials, self.tried)
+        dry_run.look_at(one for _, one in new)
+        offers, known = [], dry_run.known(self._trials, self.tried)
         for point, one in new:
             self.tried += [] if one.key in known else [point]
-            offers.append((self._dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
+            offers.append((dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
-        if found is None or score < (1.0 - within) * (self._dry_run.score(best.variant, required=False) or math.inf):
+        if found is None or score < (1.0 - within) * (dry_run.score(best.variant, required=False) or math.inf):
             return None
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
@@ -135,19 +134,17 @@ class ProposalLoop:
         self.tried.append(proposal.unit)
         return False
 
-    def _bred(self, generator: np.random.Generator) -> list[Array]:
+    def _bred(self, dry_run: DryRun, generator: np.random.Generator) -> list[Array]:
         """Return points (d,) bred from those with the best estimates: other hills than the best's are climbed too."""
-        assert self._dry_run is not None
-        known = self._dry_run.estimates(self._trials, self.tried).values()
-        held = [
-            (score, point) for point, score in known if self._dry_run.failure(self._space.to_variant(point)) is None
-        ]
+        known = dry_run.estimates(self._trials, self.tried).values()
+        held = [(score, point) for point, score in known if dry_run.failure(self._space.to_variant(point)) is None]
         parents = [point for _, point in sorted(held, key=lambda one: -one[0])[:PARENTS]]
         return list(self._space.snap(bred(np.array(parents), generator).round(DIGITS))) if len(parents) >= 4 else []
 
     def _look_around(self) -> None:
         """Try the neighbours of what the last step found, if it is a leap."""
-        if not self._estimates or self.tried:
+        dry_run = self._ready
+        if dry_run is None or self.tried:
             return
         found, last = _last_leap(self._trials), self._trials[-1]
         if found is None or found.position[:3] != last.position[:3]:
@@ -157,8 +154,7 @@ class ProposalLoop:
         beside = np.clip(centre + AROUND * self._space.scale * np.vstack([-numbers, numbers]), 0.0, 1.0)
         apart = (np.abs(beside - centre) / self._space.scale).max(axis=1) > 0.5 * AROUND  # else a bound is too near
         self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
-        assert self._dry_run is not None
-        self._dry_run.look_at(map(self._space.to_variant, self.tried))
+        dry_run.look_at(map(self._space.to_variant, self.tried))
 
     def may_hold(self, variant: Variant) -> bool:
         """Whether a variant may be proposed: it has not failed in a dry run of this step, nor has no room."""
@@ -197,8 +193,7 @@ def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: fl
 def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider: float = 1.0) -> list[Array]:
     """Return points (d,) near a trial that differ along the axes of numbers on whose bounds it does not lie.
 
-    A step away along each of them, both ways, and `DRAWN` points that are drawn at such a distance; all of them so many
-    times `wider`.
+    A step away along each of them, both ways, and `DRAWN` that are drawn at such a distance, so many times `wider`.
     """
     centre, half = space.to_unit(best.variant), 0.5 * STEP * space.scale
     inside = (centre > half) & (centre < 1.0 - half) & (np.array(space.categories) == 0)

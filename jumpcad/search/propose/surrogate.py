@@ -39,9 +39,8 @@ class Surrogate:
     """A Gaussian process over the unit cube: constant times Matérn 5/2 with one length scale per axis, plus noise.
 
     Of points x (n, d) and values y (n,). `theta` are logarithms of the hyperparameters, (k + 2,): variance, a length
-    scale for each axis of `one_hot`, noise; they are improved by maximum likelihood if `fit`, or without any.
-    `categories` are the numbers of names of the axes, 0 for one of numbers; empty: all are numbers. `units` are what
-    counts as 0 and as 1 of the values; their mean and standard deviation if None.
+    scale for each axis of `one_hot`, noise; they are improved by maximum likelihood if `fit`, or without any. For
+    `categories` see `one_hot`; empty: all are numbers. `units` are what counts as 0 and 1; None: mean and deviation.
     """
 
     def __init__(
@@ -93,8 +92,7 @@ class Surrogate:
         squares = scaled @ self._scaled
         squares *= -2.0
         squares += np.einsum("ij,ij->i", scaled, scaled)[:, None] + self._squares
-        distance: Array = np.sqrt(5.0 * np.maximum(squares, 0.0))
-        return distance
+        return np.asarray(np.sqrt(5.0 * np.maximum(squares, 0.0)))
 
 
 def _matern(distance: Array) -> Array:
@@ -115,8 +113,7 @@ def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]
         # a length scale at its upper bound: the axis has no effect
         warnings.simplefilter("ignore", ConvergenceWarning)
         regressor.fit(x, y)
-    theta: list[float] = regressor.kernel_.theta.tolist()
-    return theta
+    return list(map(float, regressor.kernel_.theta))
 
 
 def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:

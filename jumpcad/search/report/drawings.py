@@ -87,10 +87,7 @@ def evenly(count: int, most: int) -> list[int]:
 
 
 def history(found: StudySummary) -> dict[str, Any]:
-    """Return every design's score in the order of the search, and the best one before its last fifth.
-
-    No axes where none jumps, nothing without designs.
-    """
+    """Return every design's score in their order, and the best one before the last fifth; no axes where none jumps."""
     trials, objective = found.trials, found.objective
     if not trials:
         return {}

@@ -1,7 +1,6 @@
 """Figures as SVG and PNG files, of one style and the same bytes for the same data; words and units of figures."""
 
 import io
-import tomllib
 from functools import cache
 from pathlib import Path
 from textwrap import fill
@@ -15,8 +14,8 @@ from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.dimensions import KEY_UNITS, unit_of_key
 from jumpcad.evaluation import FIGURES
+from jumpcad.files import read_toml, templates_folder
 from jumpcad.files.outputs import sealed, sealed_png, write_files
-from jumpcad.files.templates import templates_folder
 from jumpcad.workshop.varied import Value
 
 PICTURES = (
@@ -39,9 +38,12 @@ STYLE: dict[Any, Any] = {
 
 
 @cache
-def meanings() -> dict[str, str]:
-    """Return the explanation below each picture, by its name in `PICTURES`."""
-    return tomllib.loads((templates_folder() / "report/pictures.toml").read_text(encoding="utf-8"))
+def report_words(name: str) -> dict[str, str]:
+    """Return words of `templates/report`: `pictures`, by the names in `PICTURES`, or `reasons` of refusals.
+
+    Names that begin with that of a reason mean the same.
+    """
+    return read_toml(templates_folder() / f"report/{name}.toml")[0]
 
 
 def panels(count: int, width: float = 3.2, height: float = 2.4, columns: int = 4) -> tuple[Figure, list[Axes]]:
@@ -62,7 +64,9 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
     """
     pixels = io.BytesIO()
     if name in PICTURES:
-        figure.supxlabel(fill(meanings()[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK)
+        figure.supxlabel(
+            fill(report_words("pictures")[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK
+        )
     with matplotlib.rc_context(STYLE):
         drawn = svg_text(figure)
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})
@@ -71,7 +75,6 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
 
 
 def svg_text(figure: Figure) -> str:
-    """Return a figure as the text of an SVG file."""
     drawn = io.StringIO()
     with matplotlib.rc_context(STYLE):
         figure.savefig(drawn, format="svg", dpi=PNG_DPI, metadata={"Date": None})
@@ -108,16 +111,11 @@ def meaning_of(parameter: str) -> str:
     return field.description or "" if field else ""
 
 
-@cache
-def reasons() -> dict[str, str]:
-    """Return what each reason of a refusal means; names that begin with one of these mean the same."""
-    return tomllib.loads((templates_folder() / "report/reasons.toml").read_text(encoding="utf-8"))
-
-
 def reason_words(reason: str) -> str:
     """Return what a reason of a refusal means; empty if it is not known."""
-    names = [name for name in reasons() if reason == name or reason.startswith(f"{name}_")]
-    return reasons()[max(names, key=len)] if names else ""
+    known = report_words("reasons")
+    names = [one for one in known if f"{reason}_".startswith(f"{one}_")]
+    return known[max(names, key=len)] if names else ""
 
 
 def figure_words(name: str, value: float) -> tuple[str, str]:

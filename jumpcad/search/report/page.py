@@ -1,9 +1,7 @@
 """The page of a study, without network: request, best designs, pictures, importances, reasons of rejection.
 
-Its pictures are files too, and there is one of searches with many seeds.
-
-Its words and marks are templates in `report/study`. The HTML is well-formed XML too. The same study file gives the same
-bytes.
+Its pictures are files too. Its words and marks are templates in `report/study`. The HTML is well-formed XML too. The
+same study file gives the same bytes.
 """
 
 import base64
@@ -26,20 +24,8 @@ from jumpcad.search.fronts import Cost, described_cost, energy_j, front, hypervo
 from jumpcad.search.methods import FRONTS, LEARNING_PHASES
 from jumpcad.search.parameter import SearchParameter
 from jumpcad.search.propose.posterior import SearchPosterior
-from jumpcad.search.report import plots
+from jumpcad.search.report import figures, plots
 from jumpcad.search.report.drawings import evenly, history, parallel, slices
-from jumpcad.search.report.figures import (
-    labels,
-    meaning_of,
-    meanings,
-    named,
-    panels,
-    reason_words,
-    save_figure,
-    svg_text,
-    value_words,
-    with_unit,
-)
 from jumpcad.search.report.shown_design import EDGE_MM, LINKS, POSES, box_mm, chart
 from jumpcad.search.robust_pick import best_apart
 from jumpcad.search.study.result import Result
@@ -79,7 +65,8 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "best": best_values(store, found, shown), "history": history(found), "slices": slices(found, shown),
         "parallel": parallel(found, shown), "pictures": _pictures(store), "importance": importances(store, found),
         "rising": rising(found), "rejected": sum(trial.score is None for trial in found.trials),
-        "reasons": reason_rows(found), "counted": counted, "with_unit": with_unit, "reason_words": reason_words,
+        "reasons": reason_rows(found), "reason_words": figures.reason_words, "with_unit": figures.with_unit,
+        "counted": counted,
         "versions": ", ".join(f"{one} {str(version)[:12]}" for one, version in identity.get("versions", {}).items()),
     }  # fmt: skip
     return allowed(fill("report/study/page.html.j2", values))
@@ -88,15 +75,15 @@ def write_study_page(store: StudyStore, name: str) -> str:
 def _asked(parameter: SearchParameter, winner: Trial | None) -> list[str]:
     """Return name, meaning, what was searched, and the winner's value."""
     name = parameter.name
-    value = with_unit(value_words(winner.variant.value(name), 4), name) if winner else ""
-    return [name, meaning_of(name), with_unit(_range(parameter), name), value]
+    value = figures.with_unit(figures.value_words(winner.variant.value(name), 4), name) if winner else ""
+    return [name, figures.meaning_of(name), figures.with_unit(_range(parameter), name), value]
 
 
 def _range(parameter: SearchParameter) -> str:
     if not parameter.free:
-        return f"fixed at {value_words(parameter.value(parameter.lower))}"
+        return f"fixed at {figures.value_words(parameter.value(parameter.lower))}"
     if parameter.choices:
-        return "one of " + ", ".join(value_words(parameter.value(choice)) for choice in parameter.choices)
+        return "one of " + ", ".join(figures.value_words(parameter.value(choice)) for choice in parameter.choices)
     return f"{parameter.lower:g} … {parameter.upper:g}"
 
 
@@ -110,9 +97,9 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
     drawn = chart(found.trials, shown, numbers, cost, is_front, str(store.path or UNSAVED))
     if is_front:
         area, whole = hypervolume(found.trials, cost=cost), len(front(found.trials, cost))
-        drawn |= {"meaning": meanings()["pareto"], "area": area, "whole": whole}
+        drawn |= {"meaning": figures.report_words("pictures")["pareto"], "area": area, "whole": whole}
     for one, trial in zip(drawn["shown"], shown, strict=True):
-        values = [value_words(trial.variant.value(parameter.name), 4) for parameter in found.space.free]
+        values = [figures.value_words(trial.variant.value(parameter.name), 4) for parameter in found.space.free]
         one |= {"energy_j": energy_j(trial.design), "values": values}
     return drawn | {
         "box": box_mm(trial.design for trial in shown),
@@ -120,7 +107,7 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
         "first": len(shown) if is_front else 1,
         "candidates": found.candidates if are_candidates else [],
         "making": Tolerances.of(store.identity).words,
-        "names": [named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
+        "names": [figures.named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
         "poses": POSES, "links": LINKS, "edge_mm": EDGE_MM,
     }  # fmt: skip
 
@@ -136,7 +123,7 @@ def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
 def _pictures(store: StudyStore) -> dict[str, tuple[str, str]]:
     """Return the pictures of matplotlib: by title the name, and the SVG in base 64."""
     return {
-        PICTURES[name]: (name, base64.b64encode(svg_text(draw()).encode()).decode())
+        PICTURES[name]: (name, base64.b64encode(figures.svg_text(draw()).encode()).decode())
         for name, draw in study_figures(store, columns=1).items()
         if name in PICTURES
     }
@@ -176,32 +163,32 @@ def reason_rows(found: StudySummary) -> list[tuple[str, str, float, str]]:
     """Return the reasons of rejection: name, words, share of the largest count, count; a design may have several."""
     counts = count_rejections(found.trials)
     most = max(counts.values(), default=1)
-    return [(reason, reason_words(reason), count / most, str(count)) for reason, count in counts.items()]
+    return [(reason, figures.reason_words(reason), count / most, str(count)) for reason, count in counts.items()]
 
 
 @check_arguments
 def plot_study(store: StudyStore, folder: str | Path, force: bool = False) -> list[Path]:
     """Write history, slices, parallel coordinates, and what the method adds, into a folder; return the files."""
-    return [save_figure(draw(), folder, name, force) for name, draw in study_figures(store).items()]
+    return [figures.save_figure(draw(), folder, name, force) for name, draw in study_figures(store).items()]
 
 
 def study_figures(store: StudyStore, columns: int = 2) -> dict[str, Callable[[], Figure]]:
     """Return functions that draw the pictures of a study, by the pictures' names; see `plots.acquisition`."""
     found, identity = summary(store), store.identity
     trials, space, objective = found.trials, found.space, found.objective
-    figures: dict[str, Callable[[], Figure]] = {}
+    drawn: dict[str, Callable[[], Figure]] = {}
     if trials:
-        figures["history"] = partial(plots.history, trials, objective)
-        figures["slices"] = partial(plots.slices, space, trials, objective, found.winner)
+        drawn["history"] = partial(plots.history, trials, objective)
+        drawn["slices"] = partial(plots.slices, space, trials, objective, found.winner)
     if trials and space.dimension > 1:
-        figures["parallel"] = partial(plots.parallel, space, trials)
+        drawn["parallel"] = partial(plots.parallel, space, trials)
     if trials and identity["method"] in FRONTS:
-        figures["pareto"] = partial(plots.pareto, trials, objective, described_cost(identity))
+        drawn["pareto"] = partial(plots.pareto, trials, objective, described_cost(identity))
     if space.dimension <= 2:
         for name, number, count in _moments(trials):
             posterior = SearchPosterior.from_trials(space, trials[:count], trials[number].proposal["theta"], fit=False)
-            figures[name] = partial(plots.acquisition, space, trials[:count], posterior, objective, columns)
-    return figures
+            drawn[name] = partial(plots.acquisition, space, trials[:count], posterior, objective, columns)
+    return drawn
 
 
 def _moments(trials: Sequence[Trial]) -> list[tuple[str, int, int]]:
@@ -223,7 +210,7 @@ def best_so_far(results: Sequence[Result]) -> Figure:
     A search that ended keeps its best. One without a jump so far counts as the worst, and has no place in the picture;
     until the last one jumps, the median is dotted.
     """
-    figure, (axes,) = panels(1, 6.4, 3.6)
+    figure, (axes,) = figures.panels(1, 6.4, 3.6)
     for colour, method in zip(plots.COLOURS, dict.fromkeys(one.request.method for one in results), strict=False):
         searches = [one.trials for one in results if one.request.method == method]
         scores = np.full((len(searches), max(map(len, searches))), -np.inf)
@@ -238,7 +225,7 @@ def best_so_far(results: Sequence[Result]) -> Figure:
         whole = np.where(np.isfinite(low), middle, np.nan)
         axes.plot(number, whole, color=colour, drawstyle="steps-post", label=f"{method}, {len(searches)} searches")
     objective = results[0].request.aim
-    labels(axes, "designs evaluated by the search", f"{objective.meaning} ({objective.unit})")
+    figures.labels(axes, "designs evaluated by the search", f"{objective.meaning} ({objective.unit})")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     figure.legend(loc="outside upper right", ncols=4)
     return figure

@@ -250,8 +250,7 @@ def _two(
 def _log_acquisition(posterior: SearchPosterior, points: Array, best: float) -> Array:
     """Return the decimal logarithm of the acquisition (m,), no lower than `DECADES` below its maximum."""
     value = (posterior.log_improvement(points, best) + posterior.log_feasible(points)) / np.log(10.0)
-    shown: Array = np.maximum(value, value.max() - DECADES)
-    return shown
+    return np.asarray(np.maximum(value, value.max() - DECADES))
 
 
 def _at_the_foot(axes: Axes, x: npt.NDArray[Any], marker: str, **how: Any) -> None:

@@ -91,9 +91,7 @@ def _value(value: Any, depth: int = 0) -> str:
     if type(value) is ModuleType:
         file = getattr(value, "__file__", None)
         return f"{kind} {file_hash(Path(file), '') if file and _is_own(file) else value.__name__}"
-    if isinstance(value, type):
-        return f"{kind} {value.__module__}.{value.__qualname__}"
-    return kind
+    return f"{kind} {value.__module__}.{value.__qualname__}" if isinstance(value, type) else kind
 
 
 def _is_own(file: str) -> bool:
@@ -105,10 +103,7 @@ def _is_own(file: str) -> bool:
 
 @cache
 def code_digest() -> str:
-    """Return a hash (hexadecimal) of the code and the catalogue that decide the trials of a study.
-
-    Between two releases the version number stays, but the code changes.
-    """
+    """Return a hash of what decides the trials of a study: between two releases the code changes, not the version."""
     package = Path(__file__).parents[2]
     files = {path.relative_to(package).as_posix(): path for path in package.rglob("*.py")}
     files |= {f"hardware/{path.name}": path for path in (templates_folder() / "hardware").glob("*.toml")}

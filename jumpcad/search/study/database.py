@@ -45,8 +45,7 @@ def open_to_read(path: Path, closing: ExitStack) -> sqlite3.Connection:
     """Return a connection to what a file holds, which a stack closes; nothing is written beside the file.
 
     SQLite itself would play back a journal that lies there, which deletes the file that it names, and write to whatever
-    has the names of its own files. Without a log, the file alone is read; with one, as of a search that runs or was
-    killed, a copy of both in a private folder.
+    has the names of its own files. A file with a log, as of a search that runs or was killed, is copied with it.
     """
     real = Path(os.path.realpath(path))
     try:
@@ -108,8 +107,7 @@ def _copied(path: Path, log: io.FileIO, closing: ExitStack) -> str:
 def require_own_sides(path: Path) -> None:
     """Require, before a study is written, that it has one name, and that the files beside it are its own.
 
-    SQLite, and who locks, write to whatever has their names. A journal is none of a study's, which has a log. By a
-    second name two searches would write with a log each.
+    SQLite, and who locks, write to whatever has their names. By a second name two searches would write a log each.
     """
     real = os.path.realpath(path)
     if os.path.isfile(real) and os.stat(real).st_nlink > 1:
@@ -149,10 +147,7 @@ def require_study(study: Path | None) -> None:
 
 @contextmanager
 def locked(path: Path) -> Iterator[None]:
-    """Lock a study file for this process, by a file beside it, which goes with the lock.
-
-    SQLite's own locks, for readers and a writer, are independent of this one.
-    """
+    """Lock a study file, independently of SQLite's own locks, by a file beside it, which goes with the lock."""
     require_path(path)
     lock = _lock(path)
     try:

@@ -7,7 +7,6 @@ from typing import Any
 from jumpcad.arguments import check_arguments
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.process import A, T
 from jumpcad.search.models import RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import QUARANTINED, Evaluation, Objective
@@ -24,12 +23,9 @@ Watch = Callable[[Trial, bool], None]
 class Evaluator:
     """Evaluates designs for the methods.
 
-    A search is a deterministic function of its seed and of the trials it has seen. It therefore resumes by being run
-    again: proposals that are in the study file are read, and from the first one that is not, they are computed.
-
-    The space of the request is searched, its model evaluates designs on a pool, its objective scores them; trials are
-    kept in a store. The search may learn from those of a `prior` study. `expired` says whether evaluations or time are
-    spent; who proposes designs asks before every step.
+    A search is a deterministic function of its seed and of the trials it has seen. It resumes by being run again:
+    proposals that are in the study file are read, the others computed. It may learn from the trials of a `prior` study.
+    `expired` says whether evaluations or time are spent; who proposes designs asks before every step.
     """
 
     @check_arguments
@@ -39,6 +35,8 @@ class Evaluator:
     ) -> None:  # fmt: skip
         self.request, self.store, self.expired = request, store, expired
         self._pool, self._watch = pool, watch
+        self.shared = pool.shared
+        """Returns what a function returns for each argument; workers of the search take part."""
         held = store.trials()
         self._finished = {trial.key: trial for trial in held}
         self._taken = {trial.position: trial.key for trial in held}
@@ -68,10 +66,6 @@ class Evaluator:
         """Return the score of a trial, whatever is required; None of what is rejected otherwise."""
         return self.objective.unrequired(trial.evaluation) if trial.score is None else trial.score
 
-    def shared(self, function: Callable[[A], T], arguments: Sequence[A]) -> list[T]:
-        """Return what a function returns for each argument; workers of the search take part."""
-        return self._pool.shared(function, arguments)
-
     def admits(self, one: Design | Variant) -> bool:
         """Whether a design or variant is new, also to the prior, and the model admits it without an evaluation."""
         key = (variant := Variant.of(one)).key
@@ -98,9 +92,8 @@ class Evaluator:
     ) -> list[Trial | None]:  # fmt: skip
         """Return the trials of designs, computing those that are not finished; at most `limit` new ones.
 
-        Of variants that are `left_out`, by their keys, the outcome is given: a screen has seen them.
-
-        Trials are kept in one transaction; if the run is interrupted or fails meanwhile, the finished ones are kept.
+        Of variants that are `left_out`, by their keys, the outcome is given. If the run is interrupted or fails
+        meanwhile, the finished trials are kept.
         """
         variants = [Variant.of(design) for design in designs]
         fresh: dict[Key, int] = {}

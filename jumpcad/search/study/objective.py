@@ -108,10 +108,7 @@ class Evaluation:
 
 @dataclass(frozen=True)
 class Objective:
-    """A score to be maximised; a rejected design has none.
-
-    ``code`` is the hash of an own objective's function.
-    """
+    """A score to be maximised; a rejected design has none. ``code`` is the hash of an own objective's function."""
 
     name: str
     meaning: str

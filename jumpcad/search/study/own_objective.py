@@ -101,11 +101,7 @@ def _loaded(place: str) -> Any:
 
 @contextmanager
 def _undisturbed() -> Iterator[None]:
-    """Run a user's code without its side effects on output and search.
-
-    Its prints go to standard error; the working directory and the state of random numbers, which the genetic algorithm
-    uses, are restored.
-    """
+    """Run a user's code without its side effects on output and search: prints, working directory, random numbers."""
     here, drawn, drawn_by_numpy = os.getcwd(), random.getstate(), np.random.get_state()  # noqa: NPY002
     try:
         with redirect_stdout(sys.stderr):
@@ -118,5 +114,4 @@ def _undisturbed() -> Iterator[None]:
 
 
 def _told(error: BaseException) -> str:
-    """Return an error in one line."""
     return without_controls(f"{type(error).__name__}: {error}".removesuffix(": "))[:120]

@@ -1,8 +1,7 @@
 """Evaluations on many processes or machines, repeated if a worker is lost.
 
-Any `concurrent.futures.Executor` can be used: local processes (loky), a Dask cluster, or the calling process. If a
-worker is lost, the designs of its task are evaluated again, one at a time; a design that fails again is quarantined,
-with the reason. The run continues in both cases.
+Any `concurrent.futures.Executor` can be used: local processes (loky), a Dask cluster, or the calling process. The
+designs of a lost worker are evaluated again, one at a time; one that fails again is quarantined, with the reason.
 """
 
 import importlib
@@ -52,9 +51,8 @@ class Outcome:
 class Pool(AbstractContextManager["Pool"]):
     """Runs so many evaluations at a time on an executor, and repeats those of lost workers.
 
-    The executor is opened again after its processes were lost, and ended without waiting for running evaluations. After
-    a timeout (s) per evaluation its worker is ended; 0 for none. `notice` is called with one line about every failure,
-    `lost` where nothing ends for `ANSWER_S`: it says why nothing will any more, or nothing.
+    After a timeout (s) per evaluation its worker is ended; 0 for none. `notice` is called with one line about every
+    failure, `lost` where nothing ends for `ANSWER_S`: it says why nothing will any more, or nothing.
     """
 
     @check_arguments

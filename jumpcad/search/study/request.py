@@ -34,10 +34,7 @@ LEARNING_VERSIONS = ("scipy", "scikit-learn", "pygad")
 
 @dataclass(frozen=True, repr=False)
 class Request:
-    """What a study is asked for, as by `jumpcad.optimize`: one object from the command line to the method.
-
-    A model of the printed robot is made to compute what method and objective need.
-    """
+    """What a study is asked for, as by `jumpcad.optimize`; the model computes what method and objective need."""
 
     space: Space
     model: RobotModel
@@ -129,10 +126,7 @@ class Request:
 
     @property
     def pick(self) -> int:
-        """How many of the evaluations examine the neighbours and the bounds of the best designs.
-
-        Of a front, all of them examine neighbours.
-        """
+        """How many of the evaluations examine neighbours of the best designs, and, but for a front, their bounds."""
         share = min(self.evaluations // 4, methods.MOST_PICK)
         return share if share >= methods.LEAST_PICK else 0
 

@@ -53,9 +53,7 @@ class Result(ByValue):
     @property
     def winner(self) -> Trial | None:
         """The trial of the most robust of the best designs; None where there is none, for the reason `why_none`."""
-        if self.why_none:
-            return None
-        return self.candidates[0].trial if self.candidates else self.best
+        return None if self.why_none else self.candidates[0].trial if self.candidates else self.best
 
     @property
     def why_none(self) -> str:

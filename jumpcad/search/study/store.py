@@ -152,7 +152,6 @@ class StudyStore(AbstractContextManager["StudyStore"]):
         return found and validated(partial(found.validate_json, context=self), key, text)
 
     def trial(self, position: Position) -> Trial:
-        """Return the trial at a position."""
         with plain_errors(self.path):
             rows = self._connection.execute(f"{TRIALS} WHERE (phase, run, step, place) = (?, ?, ?, ?)", position)
             for row in rows:

@@ -15,17 +15,7 @@ from jumpcad.search.robust_pick import ActiveBound, Candidate, named_bounds
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Objective, described_objective
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.trial import (
-    Count,
-    Finite,
-    Position,
-    Share,
-    Trial,
-    best_trial,
-    is_flat,
-    searched,
-    trial_numbers,
-)
+from jumpcad.search.study.trial import Count, Position, Share, Trial, best_trial, is_flat, searched, trial_numbers
 
 PICKS, RIGHTING = "picks", "righting"
 """Keys under which a study remembers its robust picks, one for each length of the search and of the pick, and how its
@@ -47,7 +37,7 @@ class _Pick:
 
 
 class _Shares(TomlTable):
-    tries: Finite
+    tries: float
     drops: Share
     landings: Share
 
@@ -105,10 +95,9 @@ def kept_righting(store: StudyStore, winner: Trial | None) -> dict[str, float]:
 class StudySummary:
     """What a study knows: the trials that the search proposed, in order, and the winner.
 
-    That is the most robust of the best designs, or the best where neighbours were not examined; None if no design
-    jumps, and of a search for one design whose scores are all alike. `candidates` are the best designs with the scores
-    of their neighbours, most robust first, none where the pick has not ended; `bounds` those on which the winner lies;
-    `numbers` those of all trials, by position.
+    That is the most robust of the best designs, or the best where neighbours were not examined; None if none jumps, or
+    one is sought and all score alike. `candidates` are the best designs, most robust first, none where the pick has not
+    ended; `bounds` those on which the winner lies; `numbers` those of all trials, by position.
     """
 
     space: Space

@@ -57,10 +57,9 @@ else:  # a prediction, hyperparameters by name, points that were tried
 class Trial:
     """One finished evaluation: the design, its place in the search, the outcome and the score; a row of a study file.
 
-    It was proposed at a step of a phase of the study, at a place in the step; `run` counts the runs of the phase: a
-    method of `paper` runs several times in a study, and so does the pick of one that goes on. `proposal` is what the
-    method predicted then. A rejected design has no score. `model` is the digest of the model that evaluated it;
-    `workshop` holds the values of the workshop that the search varies, by key.
+    `run` counts the runs of a phase: a method of `paper` runs several times in a study, and so does the pick of one
+    that goes on. `proposal` is what the method predicted. A rejected design has no score. `model` is the digest of the
+    model that evaluated it; `workshop` holds the values of the workshop that the search varies, by key.
     """
 
     __pydantic_config__ = ConfigDict(extra="forbid", strict=True)
@@ -193,10 +192,23 @@ def to_frame(trials: Sequence[Trial]) -> Any:
 
 
 def _records(trials: Sequence[Trial]) -> list[dict[str, Any]]:
+    """Return one flat record of each; a figure that a trial does not have is None."""
     metrics = sorted({name for trial in trials for name in trial.evaluation.metrics})
     margins = sorted({finding.name for trial in trials for finding in trial.evaluation.findings})
     keys = list(dict.fromkeys(key for trial in trials for key in trial.workshop))
-    return [_record(trial, keys, metrics, margins) for trial in trials]
+    return [
+        {
+            **dict(zip(PLACE, trial.position, strict=True)),
+            **trial.design.model_dump(),
+            **{key: trial.workshop.get(key) for key in keys},
+            "verdict": found.verdict, "feasible": found.feasible, "reasons": " ".join(found.reasons),
+            "score": trial.score,
+            **{name: found.metrics.get(name) for name in metrics},
+            **{f"margin_{name}": found.margins.get(name) for name in margins},
+            "detail": found.detail, "duration_s": trial.duration_s, "model": trial.model,
+        }
+        for trial in trials for found in [trial.evaluation]
+    ]  # fmt: skip
 
 
 def _parquet(records: list[dict[str, Any]]) -> bytes:
@@ -208,18 +220,3 @@ def _parquet(records: list[dict[str, Any]]) -> bytes:
     stream = io.BytesIO()
     parquet.write_table(pyarrow.Table.from_pylist(records), stream)
     return stream.getvalue()
-
-
-def _record(trial: Trial, keys: Sequence[str], metrics: Sequence[str], margins: Sequence[str]) -> dict[str, Any]:
-    """Return one flat record; a figure that the trial does not have is None."""
-    evaluation = trial.evaluation
-    return {
-        **dict(zip(PLACE, trial.position, strict=True)),
-        **trial.design.model_dump(),
-        **{key: trial.workshop.get(key) for key in keys},
-        "verdict": evaluation.verdict, "feasible": evaluation.feasible, "reasons": " ".join(evaluation.reasons),
-        "score": trial.score,
-        **{name: evaluation.metrics.get(name) for name in metrics},
-        **{f"margin_{name}": evaluation.margins.get(name) for name in margins},
-        "detail": evaluation.detail, "duration_s": trial.duration_s, "model": trial.model,
-    }  # fmt: skip

@@ -1,9 +1,8 @@
 """`Variant`: the input of one evaluation, a design and values of its workshop; `Tolerances`: what is made instead.
 
-Made are neighbours within ±1 % of the parameters, and within the errors of printed lengths, of the springs' rate, of
-the mass and of the floor's friction, all at once in every neighbour; `jumpcad simulate --uncertain` varies the same,
-with the same deviations. A neighbour of a printed robot is that robot with other links, angles and springs: who prints
-it does not lay it out anew.
+Made are neighbours within ±1 % of the parameters, and within the errors of printed lengths, springs' rate, mass and
+floor's friction, all at once; `jumpcad simulate --uncertain` varies the same. A neighbour of a printed robot is that
+robot with other links, angles and springs: who prints it does not lay it out anew.
 """
 
 from collections.abc import Mapping

@@ -24,10 +24,7 @@ NUMBERS = re.compile(r"-?\d[\d.]*")
 
 
 def why_required(trials: Sequence[Trial]) -> str:
-    """Return what to relax where no design has a score, but some would without what is required; else empty.
-
-    Relaxed to these numbers, the requirements admit the nearest design.
-    """
+    """Return what to relax, so that the nearest design is admitted, where only requirements reject all; else empty."""
     near = nearest_to_required(trials)
     if not near or any(trial.score is not None for trial in trials):
         return ""
@@ -49,8 +46,7 @@ def _outward(one: Requirement, margin: float) -> str:
 def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:
     """Return a line for each of the few reasons that reject most of some trials, of which none has a score.
 
-    Each has the remedy of the design that lacks least, with a number where one cures it, and the bounds of the search
-    that the remedy meets.
+    With the remedy of the design that lacks least, a number where one cures it, and the bounds that it meets.
     """
     lines = []
     for (name, text), count in Counter(cause for trial in trials for cause in _causes(trial)).most_common(MOST):

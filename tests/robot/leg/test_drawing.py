@@ -50,9 +50,9 @@ def test_lever_and_leg_make_the_angle_of_the_cam(robot: Robot) -> None:
     cam, half = robot.layout.drive.cam, robot.layout.sections.thickness_mm / 2
     holes = np.array(list(hole_centres(cut(placed(robot, "main_leg"), half - 0.3))))
     lever = holes[holes[:, 0].argmin()]
-    assert np.hypot(*lever) == pytest.approx(cam.lever_length_mm, abs=2e-3)
+    assert np.hypot(*lever) == pytest.approx(cam.geometry.lever_mm, abs=2e-3)
     seen_from_the_body = math.atan2(lever[1], lever[0]) - math.radians(robot.design.rest_angle_deg)
-    turn = (seen_from_the_body - cam.lever_start_rad + math.pi) % (2 * math.pi) - math.pi
+    turn = (seen_from_the_body - cam.geometry.lever_start_rad + math.pi) % (2 * math.pi) - math.pi
     assert turn == pytest.approx(0.0, abs=1e-4)
 
 
@@ -78,8 +78,8 @@ def test_the_leg_has_material_around_all_its_holes_and_a_flat_heel(robot: Robot)
     sections, stop = layout.sections, layout.stop
     leg = region(cut(placed(robot, "main_leg"), 0.01))
     filled = shapely.Polygon(leg.exterior)
-    turn = cam.lever_start_rad + math.radians(robot.design.rest_angle_deg)
-    lever = (cam.lever_length_mm * math.cos(turn), cam.lever_length_mm * math.sin(turn))
+    turn = cam.geometry.lever_start_rad + math.radians(robot.design.rest_angle_deg)
+    lever = (cam.geometry.lever_mm * math.cos(turn), cam.geometry.lever_mm * math.sin(turn))
     pin = max(sections.leg_root_mm / 2.0, sections.eye_radius_mm)
     eyes = [((robot.design.l2_mm, 0.0), sections.eye_radius_mm), (lever, 4.5), ((layout.leg_pin_mm, 0.0), pin)]
     for place, radius in eyes:

@@ -173,7 +173,7 @@ def test_the_dog_bears_the_cams_torque_and_its_blow(robot: str, axle_mm: float, 
     strong = replace(strong, layout=replace(strong.layout, axle_mm=axle_mm))
     (dog,) = (finding for finding in strength_findings(strong) if finding.name == "cam_dog_strength")
     drive, case = strong.layout.drive, LoadCase(strong)
-    torque = 1000.0 * max(drive.cam.peak_torque_nm, strong.release.blow_nm)
+    torque = 1000.0 * max(drive.cam.law.peak_torque_nm, strong.release.blow_nm)
     fits, outer = case.workshop.fits, drive.dog.outer_mm
     inner = axle_mm + 4.0 * fits.sliding_mm + 2.0 * fits.wall_min_mm
     root, radius = (outer - inner) / 2.0, (outer + inner) / 4.0

@@ -61,7 +61,7 @@ def placed_with(robot: Robot, **travel: float) -> SensorPlace:
 
 def test_the_gear_keeps_1_6_mm_under_the_groove_or_is_refused(robot: Robot) -> None:
     """A plunger that stands out farther needs a groove that is deeper by layers: of 5 mm, 16 of 0.2 mm but not 18."""
-    needs, thick = robot.layout.sensor.needs, robot.layout.drive.train.stages[-1].face_width_mm
+    needs, thick = robot.layout.sensor.needs, robot.layout.drive.train.stages[-1].wheel.face_width_mm
     assert (needs.layer_mm, thick) == (0.2, 5.0)
     least = middle_mm(needs.travel) - needs.axial_mm - 0.1
     assert placed_with(robot, free_mm=least + 3.2).depth_mm == pytest.approx(3.2)

@@ -27,7 +27,13 @@ def swept(robot: Robot, gap_mm: float = 0.0) -> dict[str, Obstacle]:
     assert layout is not None
     cam = layout.drive.cam
     obstacles = link_obstacles(
-        Linkage(robot.design), layout.sections, cam.lever_length_mm, cam.lever_start_rad, (-6.0, 10.0), gap_mm, PAST_RAD
+        Linkage(robot.design),
+        layout.sections,
+        cam.geometry.lever_mm,
+        cam.geometry.lever_start_rad,
+        (-6.0, 10.0),
+        gap_mm,
+        PAST_RAD,
     )
     return {obstacle.name: obstacle for obstacle in obstacles}
 
@@ -69,8 +75,8 @@ def test_the_lever_leads_the_leg_by_its_angle_and_swings_on_past_rest() -> None:
     cam = layout.drive.cam
     room = area(swept(robot)["lever"]).buffer(BETWEEN_MM["lever"])
     for turn in windings(robot):
-        angle = cam.lever_start_rad + turn  # winding turns the leg up towards the body: counter-clockwise
-        tip = layout.hub_mm + cam.lever_length_mm * np.array([np.cos(angle), np.sin(angle)])
+        angle = cam.geometry.lever_start_rad + turn  # winding turns the leg up towards the body: counter-clockwise
+        tip = layout.hub_mm + cam.geometry.lever_mm * np.array([np.cos(angle), np.sin(angle)])
         assert room.contains(shapely.LineString([layout.hub_mm, tip]).buffer(layout.sections.lever_root_mm / 2.0))
 
 

@@ -141,7 +141,7 @@ def test_the_pad_may_be_pressed_by_half_and_the_leg_turn_3_degrees_and_the_cams_
     robot = built(name)
     cam, findings = robot.layout.drive.cam, found(robot)
     assert findings["stop_pad"].limit == pytest.approx(robot.layout.stop.pad.thickness_mm / 2.0)
-    room = 3.0 + math.degrees(cam.geometry.clearance_mm / cam.lever_length_mm)
+    room = 3.0 + math.degrees(cam.geometry.clearance_mm / cam.geometry.lever_mm)
     assert cam.geometry.clearance_mm > 0.4
     assert findings["stop_clearance"].limit == pytest.approx(room)
     assert findings["stop_clearance"].value == pytest.approx(math.degrees(robot.stop_blow.give_rad))

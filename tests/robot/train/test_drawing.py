@@ -178,9 +178,9 @@ def test_the_roller_falls_free_of_the_cam(name: str) -> None:
     robot = built(name)
     gap = roller_gap(robot)
     cam, wound = robot.layout.drive.cam, robot.design.compression_rad
-    start = float(cam.wind_rad(cam.free_rad - 1e-9))
+    start = float(cam.wind_rad(cam.geometry.free_rad - 1e-9))
     for wind in np.linspace(min(start, wound), -math.radians(4.9), 30):
-        assert gap(cam.free_rad, float(wind)) > 0.3
+        assert gap(cam.geometry.free_rad, float(wind)) > 0.3
 
 
 @pytest.mark.parametrize("name", ["kenan-2.0", "best-bo"])

@@ -9,7 +9,15 @@ from support.places import ROOT
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.outputs import require_free
-from jumpcad.search.report.figures import figure_words, named, panels, reason_words, reasons, save_figure, with_unit
+from jumpcad.search.report.figures import (
+    figure_words,
+    named,
+    panels,
+    reason_words,
+    report_words,
+    save_figure,
+    with_unit,
+)
 
 
 def test_an_unwritable_folder_is_one_line(tmp_path):
@@ -59,7 +67,7 @@ def test_when_something_would_break_is_told_as_its_check_computes_it():
     for check in reference.split("\n### ")[1:]:
         name, _, text = check.partition("\n")
         for moment in ("land", "release", "blocked"):
-            if moment in reasons().get(name.strip("`"), ""):
+            if moment in report_words("reasons").get(name.strip("`"), ""):
                 assert moment in text, name
                 told.append(moment)
     assert len(told) > 12
@@ -67,9 +75,9 @@ def test_when_something_would_break_is_told_as_its_check_computes_it():
 
 
 def test_the_longest_name_counts_and_an_unknown_reason_has_no_words():
-    assert reason_words("room_battery") == reasons()["room"]
-    assert reason_words("gear_strength_2") == reasons()["gear_strength"]
-    assert reason_words("sensor_track") == reasons()["sensor_track"] != reason_words("sensor_open")
+    assert reason_words("room_battery") == report_words("reasons")["room"]
+    assert reason_words("gear_strength_2") == report_words("reasons")["gear_strength"]
+    assert reason_words("sensor_track") == report_words("reasons")["sensor_track"] != reason_words("sensor_open")
     assert reason_words("roomy") == ""
 
 

@@ -11,7 +11,7 @@ from jumpcad.findings import Finding
 from jumpcad.search.explore import FeasibilityMap, Importance, Sweep
 from jumpcad.search.fronts import energy_j
 from jumpcad.search.report import plots
-from jumpcad.search.report.figures import PICTURES, meanings, panels, save_figure
+from jumpcad.search.report.figures import PICTURES, panels, report_words, save_figure
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation, find_objective
 from jumpcad.search.study.trial import Trial
@@ -136,8 +136,8 @@ def test_a_map_has_its_ring_where_the_centre_is_and_a_colour_for_each_first_reas
 
 
 def test_every_picture_says_what_it_means(tmp_path):
-    assert set(meanings()) == set(PICTURES)
+    assert set(report_words("pictures")) == set(PICTURES)
     figure, _ = panels(1)
     save_figure(figure, tmp_path, "history")
     said = " ".join(figure.get_supxlabel().split())
-    assert said == meanings()["history"]
+    assert said == report_words("pictures")["history"]
