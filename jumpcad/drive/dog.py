@@ -61,7 +61,7 @@ class Dog:
     @property
     def cam_jaws_rad(self) -> list[tuple[float, float]]:
         """Where the cam's jaws begin and end, counter-clockwise from x, at cam angle 0."""
-        middles = (0.0, math.pi + (self.play_rad / 2.0 + ASIDE_MORE_RAD))  # twice as far aside as the play, and more
+        middles = (0.0, math.pi + (self.play_rad / 2.0 + ASIDE_MORE_RAD))  # aside by more than half of the play
         return [(middle - self.jaw_rad / 2.0, middle + self.jaw_rad / 2.0) for middle in middles]
 
     @property

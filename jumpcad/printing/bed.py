@@ -57,17 +57,13 @@ def require_bed(
     found = fit_to_bed(bounds_mm, outline, bed_mm)
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
+        horns = CAGED if caged and name.startswith("body_plate") else ()
+        smaller = next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
         raise CannotBuildError(
             f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm",
-            "bed", found.margin_mm, ways=("choose a larger printer in the workshop", *_smaller(name, caged)),
+            "bed", found.margin_mm, ways=("choose a larger printer in the workshop", *horns, *smaller),
         )  # fmt: skip
     return found
-
-
-def _smaller(name: str, caged: bool) -> Ways:
-    """Return what makes a part smaller."""
-    horns = CAGED if caged and name.startswith("body_plate") else ()
-    return (*horns, *next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"]))
 
 
 def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:
@@ -77,5 +73,4 @@ def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[B
     x, y = outline_mm.T
     sides = np.stack([np.ptp(cos * x - sin * y, axis=1), np.ptp(sin * x + cos * y, axis=1)], axis=-1)
     margins = np.minimum((bed_mm[:2] - sides).min(axis=1), bed_mm[2] - height_mm)
-    for angle, margin in zip(angles.tolist(), margins.tolist(), strict=True):
-        yield BedFit(angle, margin)
+    yield from map(BedFit, angles.tolist(), margins.tolist())

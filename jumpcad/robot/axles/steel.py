@@ -93,11 +93,6 @@ BASIS = {
 def steel_findings(robot: Robot) -> Iterator[Finding]:
     """Yield a finding for every way in which a bought part could break."""
     case = load_case(robot)
-    yield from (*_pins(case), *_retention(case), *_fatigue(case), *_bearings(case))
-
-
-def _pins(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of axles, pins and the roller's screw."""
     layout, lateral = case.layout, case.layout.lateral
     names = {
         "leg_axle": "the leg's axle, springs loaded",
@@ -116,6 +111,46 @@ def _pins(case: LoadCase) -> Iterator[Finding]:
     allowed = ROLLER_SCREW_YIELD_MPA / case.workshop.safety.metal_factor
     ways = choose("a narrower", "bought.roller")
     yield stress_finding("roller_screw_strength", "the roller's screw, springs loaded", stress, allowed, ways)
+    kept = {"plates": "the plates over its ends", "clips": "its clips", "nuts": "its nut"}[layout.retention]
+    clipped = clipped_pins(case.workshop.catalogue, case.workshop.bought)
+    pins = "its clips" if clipped else "its split pin"
+    for name, what, by in (("axle_retention", "an axle", kept), ("pin_retention", "a pin of the foot", pins)):
+        allowed = case.bars["leg_axle" if name == "axle_retention" else "foot_pin"].axial_n
+        yield at_most(
+            name, case.axial_n, allowed, "N",
+            f"a landing sideways loads {what} along its axis with {case.axial_n:.0f} N; {by} may carry {allowed:.0f} N",
+            'another bought.retention ("plates", "clips", "nuts"), or a stronger material for the body',
+        )  # fmt: skip
+    safety, spring = case.workshop.safety, layout.drive.spring
+    lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
+    rounded = f"{lasts:.2g}"
+    allowed = spring_share(safety.jumps) * spring.tensile_mpa
+    yield at_most(
+        "spring_fatigue", spring.stress_mpa, allowed, "MPa",
+        f"the springs' wire: {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; its life is "
+        f"{'infinite' if math.isinf(lasts) else f'about {float(rounded):.0f} jumps'}",
+        SOFTER, "warning",  # since nothing breaks at the first jump
+    )  # fmt: skip
+    limits = {name: pin_limit_mpa(bar.yield_mpa / YIELD_SHARE, safety.jumps) for name, bar in case.bars.items()}
+    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / limits[item[0]])
+    allowed = limits[name] / safety.load_factor
+    yield at_most(
+        "axle_fatigue", stress, allowed, "MPa",
+        f"the {name.replace('_', ' ')}: {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
+        higher("bought.axle_mm", note="with its bearings") + SOFTER, "warning",
+    )  # fmt: skip
+    hub, cam = layout.hub_bearing, lateral.cam
+    if hub is None:
+        return
+    (arms, _), push = case.wound_forces_n
+    force = bearing_load_n((arms, push), layout.sections.thickness_mm, cam[1] - cam[0], hub)
+    allowed = allowed_n(hub, case.workshop)  # an overload dents the races but does not stop the robot
+    yield at_most(
+        "hub_bearing_load", force, allowed, "N",
+        f"the {hub.name} at the cam's side of the leg's hub: {force:.0f} of {allowed:.0f} N, its static rating "
+        f"over {case.workshop.safety.bearing_factor:g} and the reserves",
+        'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
+    )  # fmt: skip
 
 
 def _stronger(case: LoadCase, name: str, stress_mpa: float, allowed_mpa: float) -> Ways:
@@ -160,55 +195,3 @@ def _thicker(case: LoadCase, name: str, share: float) -> str:
         return f"bought.axle_mm of {math.ceil(10.0 * least) / 10.0:.1f} or more with its bearings, "
     enough = min((size for size in made if size >= least), default=None)
     return "" if enough is None else f"bought.axle_mm of {enough:g} with its bearings, "
-
-
-def _retention(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of the retention of axles and pins, loaded by the friction of a landing sideways."""
-    kept = {"plates": "the plates over its ends", "clips": "its clips", "nuts": "its nut"}[case.layout.retention]
-    clipped = clipped_pins(case.workshop.catalogue, case.workshop.bought)
-    pins = "its clips" if clipped else "its split pin"
-    for name, what, by in (("axle_retention", "an axle", kept), ("pin_retention", "a pin of the foot", pins)):
-        allowed = case.bars["leg_axle" if name == "axle_retention" else "foot_pin"].axial_n
-        yield at_most(
-            name, case.axial_n, allowed, "N",
-            f"a landing sideways loads {what} along its axis with {case.axial_n:.0f} N; {by} may carry {allowed:.0f} N",
-            'another bought.retention ("plates", "clips", "nuts"), or a stronger material for the body',
-        )  # fmt: skip
-
-
-def _fatigue(case: LoadCase) -> Iterator[Finding]:
-    """Yield the findings of fatigue after a number of jumps: warnings, since nothing breaks at the first jump."""
-    safety, spring = case.workshop.safety, case.layout.drive.spring
-    lasts = spring_jumps(spring.stress_mpa / spring.tensile_mpa)
-    rounded = f"{lasts:.2g}"
-    allowed = spring_share(safety.jumps) * spring.tensile_mpa
-    yield at_most(
-        "spring_fatigue", spring.stress_mpa, allowed, "MPa",
-        f"the springs' wire: {spring.stress_mpa:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps; its life is "
-        f"{'infinite' if math.isinf(lasts) else f'about {float(rounded):.0f} jumps'}",
-        SOFTER, "warning",
-    )  # fmt: skip
-    limits = {name: pin_limit_mpa(bar.yield_mpa / YIELD_SHARE, safety.jumps) for name, bar in case.bars.items()}
-    name, stress = max(case.steel_stresses_mpa.items(), key=lambda item: item[1] / limits[item[0]])
-    allowed = limits[name] / safety.load_factor
-    yield at_most(
-        "axle_fatigue", stress, allowed, "MPa",
-        f"the {name.replace('_', ' ')}: {stress:.0f} of {allowed:.0f} MPa for {safety.jumps:g} jumps",
-        higher("bought.axle_mm", note="with its bearings") + SOFTER, "warning",
-    )  # fmt: skip
-
-
-def _bearings(case: LoadCase) -> Iterator[Finding]:
-    """Yield the finding of the hub's bearings: an overload dents their races but does not stop the robot."""
-    hub, cam = case.layout.hub_bearing, case.layout.lateral.cam
-    if hub is None:
-        return
-    (arms, _), push = case.wound_forces_n
-    force = bearing_load_n((arms, push), case.layout.sections.thickness_mm, cam[1] - cam[0], hub)
-    allowed = allowed_n(hub, case.workshop)
-    yield at_most(
-        "hub_bearing_load", force, allowed, "N",
-        f"the {hub.name} at the cam's side of the leg's hub: {force:.0f} of {allowed:.0f} N, its static rating "
-        f"over {case.workshop.safety.bearing_factor:g} and the reserves",
-        'bought.leg_bearing = "any" for a stronger one, or "" for none', "warning",
-    )  # fmt: skip

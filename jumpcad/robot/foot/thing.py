@@ -131,8 +131,7 @@ def stance_deg(layout: Layout, com_mm: Array, aside_mm: float) -> Array:
     slope = (narrow - wide) / (front - back)
     half = wide + slope * (com_mm[:, 0] - back) - abs(aside_mm)
     height = com_mm[:, 1] + layout.sections.ground_mm
-    stance: Array = np.degrees(np.arctan2(half / math.hypot(1.0, slope), height))
-    return stance
+    return np.asarray(np.degrees(np.arctan2(half / math.hypot(1.0, slope), height)))
 
 
 def play_rad(layout: Layout, holes: HoleSizes) -> float:

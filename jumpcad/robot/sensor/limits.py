@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from jumpcad.findings import Basis, Finding, at_least, at_most, higher, lower
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.sensor.place import SensorPlace, middle_mm
+from jumpcad.robot.sensor.place import middle_mm
 
 RUN_ON_S = 0.06
 """How long the motor runs on after the sensor has opened (`bundle.firmware`)."""
@@ -26,8 +26,7 @@ BASIS = {
     ),
     "sensor_open": Basis(
         f"min(drawn angle - scatter, 360° - lift - drawn angle - scatter - ω·{RUN_ON_S:g} s) ≥ 0 (°), scatter and ω as "
-        "in "
-        "`sensor_ready`",
+        "in `sensor_ready`",
         f"{TRAVEL}; {RUN_ON_S:g} s: the firmware",
     ),
 }
@@ -36,13 +35,8 @@ BASIS = {
 def sensor_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `sensor_press`, `sensor_overtravel`, `sensor_free`, `sensor_ready` and `sensor_open`."""
     sensor = robot.layout.sensor
-    if sensor is not None:
-        yield from _plunger(sensor)
-        yield from _angles(robot, sensor)
-
-
-def _plunger(sensor: SensorPlace) -> Iterator[Finding]:
-    """Yield how far the land and the groove are from the ends of the plunger's travel."""
+    if sensor is None:
+        return
     travel, axial = sensor.needs.travel, sensor.needs.axial_mm
     land = middle_mm(travel)
     press = travel.operating_mm - travel.operating_tolerance_mm - land - axial
@@ -65,10 +59,6 @@ def _plunger(sensor: SensorPlace) -> Iterator[Finding]:
         f"the groove leaves the sensor's plunger {free:.2f} mm free for the rest of the turn, of 0 mm at least",
         (*SCATTER, "choose a bought.sensor with less travel"),
     )  # fmt: skip
-
-
-def _angles(robot: Robot, sensor: SensorPlace) -> Iterator[Finding]:
-    """Yield whether the motor stops before the drop, and the sensor opens between the drop and the next lift."""
     scatter, stop, drawn = (math.degrees(a) for a in (sensor.scatter_rad, sensor.needs.stop_rad, sensor.ready_rad))
     left = drawn - scatter - stop
     yield at_least(

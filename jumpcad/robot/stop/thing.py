@@ -160,7 +160,13 @@ def stop_findings(robot: Robot) -> Iterator[Finding]:
         f"leaves room for {room:.1f}°",
         choose("a stiffer", "body.stop_pad") + WEAKER,
     )  # fmt: skip
-    yield _free_release(robot)
+    energy, borne = free_release_j(robot)
+    told = f"released with its feet free its stop takes {energy:.2f} J, and bears {borne:.2f} J"
+    if energy <= borne:
+        yield at_most("free_release", energy, borne, "J", told, FEET_FIRST)
+    else:  # a note, since a robot is not released so
+        told += ": it stands on its feet at every release, is in no hand, not on its side, not in the air"
+        yield Finding("free_release", "info", borne - energy, "J", told, FEET_FIRST, energy)
 
 
 def free_release_j(robot: Robot) -> tuple[float, float]:
@@ -175,16 +181,6 @@ def free_release_j(robot: Robot) -> tuple[float, float]:
     stresses = _stresses_mpa(robot, load_case(robot), joule.force_n, joule.torque_nm)
     use = max(joule.give_mm / (PAD_STRAIN * stop.pad.thickness_mm), *np.divide(stresses, strengths))
     return spring.stored_j(-spring.wind_rad) - spring.stored_j(stop.angle_rad), float(use) ** -2.0
-
-
-def _free_release(robot: Robot) -> Finding:
-    """Return `free_release`: a note where the stop does not bear it, since a robot is not released so."""
-    energy, borne = free_release_j(robot)
-    told = f"released with its feet free its stop takes {energy:.2f} J, and bears {borne:.2f} J"
-    if energy <= borne:
-        return at_most("free_release", energy, borne, "J", told, FEET_FIRST)
-    told += ": it stands on its feet at every release, is in no hand, not on its side, not in the air"
-    return Finding("free_release", "info", borne - energy, "J", told, FEET_FIRST, energy)
 
 
 def _stresses_mpa(robot: Robot, case: LoadCase, force_n: float, torque_nm: float) -> tuple[float, float, float]:

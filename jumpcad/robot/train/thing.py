@@ -34,27 +34,18 @@ BASIS = {
 }
 
 
-def drive_findings(robot: Robot) -> list[Finding]:
-    """Return the drive's findings; `spring_stress`, `cam_*`, `gear_*`, `motor_*`, `release_*` by what they limit."""
-    return [*(_judged(found) for found in (*robot.layout.drive.findings, *robot.release.findings)), _dog(robot)]
-
-
-def _dog(robot: Robot) -> Finding:
-    """Return the finding of the cam's dog, loaded and at the impact."""
+def drive_findings(robot: Robot) -> Iterator[Finding]:
+    """Yield the drive's findings; `spring_stress`, `cam_*`, `gear_*`, `motor_*`, `release_*` by what they limit."""
+    for found in (*robot.layout.drive.findings, *robot.release.findings):
+        failed: Severity = "warning" if found.severity == "warning" else "error"  # of what wears
+        margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin  # the cam's search ends on its limits
+        yield replace(found, margin=margin, severity="info" if margin >= 0.0 else failed)
     case, gears = load_case(robot), robot.workshop.material("gears")
     stress = case.dog_stress_mpa(max(robot.layout.drive.cam.law.peak_torque_nm, robot.release.blow_nm))
     allowable = gears.strength_interlayer_mpa / robot.workshop.safety.printed_factor
     ways = (*lower("stiffness_nmm_per_deg", "compression_ratio"), "choose a stronger material for the gears")
-    return stress_finding(
-        "cam_dog_strength", "the cam's dog, across its layers at release", stress, allowable, ways, "dog"
-    )
-
-
-def _judged(found: Finding) -> Finding:
-    """Return a finding with its severity; the cam's search ends on its limits, within about 1e-9."""
-    failed: Severity = "warning" if found.severity == "warning" else "error"  # of what wears
-    margin = 0.0 if abs(found.margin) < ROUND_OFF else found.margin
-    return replace(found, margin=margin, severity="info" if margin >= 0.0 else failed)
+    what = "the cam's dog, across its layers at release"
+    yield stress_finding("cam_dog_strength", what, stress, allowable, ways, "dog")
 
 
 BLOCKED_FACTOR = 1.5
