@@ -138,20 +138,12 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
 
     @check_arguments
     def __init__(
-        self,
-        robot: Robot | Design | str | Path = "kenan-2.0",
-        workshop: Workshop | None = None,
-        start: Start = "loaded",
-        control: Control = "switch",
-        steps_mm: Sequence[float] = (0.0, 0.0),
-        target_m: Sequence[float] = (),
-        obstacles: Sequence[Mapping[str, Any] | Obstacle] = (),
-        made: int = 0,
-        episode_s: float = 20.0,
-        step_s: float = 0.05,
-        render_mode: str | None = None,
+        self, robot: Robot | Design | str | Path = "kenan-2.0", workshop: Workshop | None = None,
+        start: Start = "loaded", control: Control = "switch", steps_mm: Sequence[float] = (0.0, 0.0),
+        target_m: Sequence[float] = (), obstacles: Sequence[Mapping[str, Any] | Obstacle] = (), made: int = 0,
+        episode_s: float = 20.0, step_s: float = 0.05, render_mode: str | None = None,
         picture: Sequence[int] = (320, 240),
-    ) -> None:
+    ) -> None:  # fmt: skip
         if gymnasium is None:
             raise JumpcadError('JumpEnv needs Gymnasium: pip install "jumpcad[gym]"')
         for name, value, known in (
@@ -282,12 +274,9 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         fits = np.isfinite(found) if torque else np.isin(found, (WAIT, WIND, RELEASE))
         if len(found) != count or not fits.all():
             known = "a torque from 0 to 1" if torque else f"{WAIT} (wait), {WIND} (wind) or {RELEASE} (release)"
-            wheel = (
-                ", and the wheel's speed from -1 to 1"
-                if torque
-                else ", and the wheel's 0 (stand), 1 (left) or 2 (right)"
-            )
-            raise JumpcadError(f"action = {described(action)}: must be {known}{wheel * self.steers}")
+            wheel = "speed from -1 to 1" if torque else "0 (stand), 1 (left) or 2 (right)"
+            also = f", and the wheel's {wheel}" * self.steers
+            raise JumpcadError(f"action = {described(action)}: must be {known}{also}")
         return float(found[0]), float(found[-1]) if self.steers else 0.0
 
     def render(self) -> Any:

@@ -38,7 +38,7 @@ SUFFIXES = (
     ".step", ".stl", ".svg", ".toml", ".urdf", ".xacro", ".xml",
 )  # fmt: skip
 OTHERS = re.compile(
-    r"firmware/(main|robot|winder)\.py|"
+    r"firmware/(main|robot|winder|gyroscope)\.py|"
     r"ros2/[a-z0-9_]+_description/(CMakeLists\.txt|launch/(view_robot|gazebo)\.launch\.py|config/controllers\.yaml)"
 )
 """With `SUFFIXES`: the files that a bundle may have. A forged manifest that lists others, such as .git/HEAD or a

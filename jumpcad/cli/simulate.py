@@ -132,7 +132,7 @@ def simulate(
     if published:
         _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
-    engines = _engines(engine or ("mujoco" if chain else None))
+    engines = list(GENERAL) if engine == "both" else [engine or ("mujoco" if chain else default_engine())]
     for option, words in (("--trajectory", "records"), ("--uncertain", "takes")):
         if len(engines) > 1 and (trajectory if option == "--trajectory" else uncertain):
             raise JumpcadError(f"{option} {words} one engine: choose --engine pybullet, mujoco or planar")
@@ -190,11 +190,6 @@ def _published(design: "Design", heading: dict[str, str], engine: str | None, as
     print(f"published distance  {result['distance_m']:.6f} m   where the body is at the first contact after 0.5 s")
     print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, not its rise")
     print(f"energy              {result['energy_j']:.6f} J")
-
-
-def _engines(asked: str | None) -> list[str]:
-    """Return the engines to use: by default the first installed, which the output names."""
-    return list(GENERAL) if asked == "both" else [default_engine() if asked is None else asked]
 
 
 def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: int, seed: int, as_json: bool) -> None:

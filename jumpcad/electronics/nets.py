@@ -221,21 +221,19 @@ def _ground_net(chosen: Chosen, pins: dict[str, str]) -> Net:
 
 
 def _signal_nets(chosen: Chosen, pins: dict[str, str], contact: str, pull_up: int | None) -> Iterator[Net]:
-    """Yield the wires between controller, driver, sensor, divider and motor."""
-    driver = chosen.driver
-    for signal, function in (("motor", "forward"), ("sleep", "sleep"), *STEERING.items()):
+    """Yield the wires between controller, driver, gyroscope, sensor, divider and motor."""
+    driver, gyroscope = chosen.driver, chosen.gyroscope
+    for signal, function in (("motor", "forward"), ("sleep", "sleep"), *STEERING.items(), *GYROSCOPE.items()):
+        part = "gyroscope" if signal in GYROSCOPE else "driver"
         if signal in pins:
-            inputs = (Terminal("driver", pin) for pin in driver.with_function(function))
+            inputs = (Terminal(part, pin) for pin in chosen.boards[part].with_function(function))
             yield Net(signal, "signal", (Terminal("controller", pins[signal]), *inputs))
     if "ready" in pins:
         ends = (Terminal("controller", pins["ready"]), Terminal("sensor", contact))
         yield Net("ready", "signal", ends if pull_up is None else (*ends, Terminal("pull-up resistor", "1")))
     fed = [Terminal("pull-up resistor", "2")] if pull_up is not None else []
-    if (gyroscope := chosen.gyroscope) is not None:
+    if gyroscope is not None:
         fed.append(Terminal("gyroscope", supply_pin(gyroscope, (chosen.controller.logic_v or 0.0,) * 2)))
-        for signal in (one for one in GYROSCOPE if one in pins):
-            there = (Terminal("gyroscope", pin) for pin in gyroscope.with_function(GYROSCOPE[signal])[:1])
-            yield Net(signal.replace("_", " "), "signal", (Terminal("controller", pins[signal]), *there))
     for out in chosen.controller.with_function("out")[:1] if fed else ():
         yield Net("logic supply", "logic", (Terminal("controller", out), *fed))
     if "battery" in pins:

@@ -126,14 +126,9 @@ class Going:
 
 @check_arguments
 def go(
-    robot: Robot,
-    to: float | Sequence[float] | Course = (3.0, 0.0),
-    tries: int = 20,
-    seed: int = 0,
-    settings: Settings | None = None,
-    heading_noise_deg: float = HEADING_NOISE_DEG,
-    record: bool = False,
-) -> Going:
+    robot: Robot, to: float | Sequence[float] | Course = (3.0, 0.0), tries: int = 20, seed: int = 0,
+    settings: Settings | None = None, heading_noise_deg: float = HEADING_NOISE_DEG, record: bool = False,
+) -> Going:  # fmt: skip
     """Let a robot that steers go to a point or along a course a number of times, each on another floor.
 
     Parameters
@@ -172,14 +167,9 @@ def course_of(to: float | Sequence[float] | Course) -> Course:
 
 
 def trips(
-    robot: Robot,
-    to: float | Sequence[float] | Course,
-    tries: int,
-    seed: int = 0,
-    settings: Settings | None = None,
-    heading_noise_deg: float = HEADING_NOISE_DEG,
-    record: bool = False,
-) -> Iterator[Trip]:
+    robot: Robot, to: float | Sequence[float] | Course, tries: int, seed: int = 0, settings: Settings | None = None,
+    heading_noise_deg: float = HEADING_NOISE_DEG, record: bool = False,
+) -> Iterator[Trip]:  # fmt: skip
     """Yield the tries of `go` one by one."""
     course = course_of(to)
     if not 0.0 <= heading_noise_deg <= 180.0:
@@ -257,11 +247,10 @@ def _trip(
         struck.clear()
         done = hop(arena, rng, recorder, turn)
         ways.append(done.way_m)
-        at = arena.centre_of_mass_m[:2]
-        energy = train.electrical_j + abs(turn_deg) * turn_j
-        place, hit = (float(at[0] - origin[0]), float(at[1] - origin[1])), tuple(sorted(one + 1 for one in struck))
-        moves.append(Move(**vars(done), point=reached + 1, turn_deg=turn_deg, place_m=place, left_m=left_m(reached),
-                          energy_j=energy, struck=hit))  # fmt: skip
+        x, y = (arena.centre_of_mass_m[:2] - origin).tolist()
+        hit = tuple(sorted(one + 1 for one in struck))
+        moves.append(Move(**vars(done), point=reached + 1, turn_deg=turn_deg, place_m=(x, y), left_m=left_m(reached),
+                          energy_j=train.electrical_j + abs(turn_deg) * turn_j, struck=hit))  # fmt: skip
         reached = reached_from(reached)
     arena.watch = None
     moved = (recorder.trajectory, tuple(recorder.phases)) if recorder.on else (None, ())

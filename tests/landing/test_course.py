@@ -100,7 +100,7 @@ def test_who_is_refused(robot: Robot) -> None:
 def test_the_jumps_of_a_way_are_counted_in_the_open(robot: Robot) -> None:
     """A wall before its nose, which it turns away from, does not make its jumps shorter."""
     said = []
-    for obstacles in ((), (Obstacle(kind="wall", at_m=(0.2, 0.0), height_mm=500.0),)):
+    for obstacles in ((), (Obstacle(kind="wall", at_m=(0.3, 0.0), height_mm=500.0),)):
         with pytest.raises(JumpcadError, match="a full battery gives") as refused:
             jumpcad.go(robot, Course(points_m=((-900.0, 0.0),), obstacles=obstacles), 1)
         said.append(str(refused.value))

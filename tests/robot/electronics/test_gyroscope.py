@@ -9,6 +9,7 @@ from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.bundle.guide.markdown import write_guide
+from jumpcad.bundle.manifest import own_path
 from jumpcad.checks import check
 from jumpcad.errors import JumpcadError
 from jumpcad.robot.electronics.limits import electronics_findings
@@ -35,8 +36,8 @@ def test_it_has_a_seat_four_wires_a_line_in_the_bill_and_a_step() -> None:
     assert ends == {
         "gyroscope VIN": "logic supply",
         "gyroscope GND": "ground",
-        "gyroscope SDA": "gyro data",
-        "gyroscope SCL": "gyro clock",
+        "gyroscope SDA": "gyro_data",
+        "gyroscope SCL": "gyro_clock",
     }
     assert "controller 3V3" in nets["logic supply"]
     used = [value for name, value in numbers(robot).items() if name.startswith("PIN_") and value is not None]
@@ -56,6 +57,7 @@ def test_it_has_a_seat_four_wires_a_line_in_the_bill_and_a_step() -> None:
 def test_its_firmware_compiles_and_that_of_robots_without_stays_as_it_is() -> None:
     files, plain = (dict(firmware_files(robot)) for robot in (measuring(), measuring(**{"steering.gyroscope": ""})))
     assert "firmware/gyroscope.py" in files
+    assert [own_path(path) for path in files] == list(files)  # what a manifest may list
     assert "firmware/gyroscope.py" not in plain
     assert "from gyroscope import Wheel\n" in files["firmware/main.py"]
     assert "GYRO" not in "".join(plain.values()).upper()
