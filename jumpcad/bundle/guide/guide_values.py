@@ -45,17 +45,6 @@ def scale_range_kg(robot: Robot) -> float:
     return math.ceil((1.0 + scatter) * loaded_grams(robot.layout.drive.spring) / 1000.0)
 
 
-def inspection_values(robot: Robot) -> dict[str, Any]:
-    """Return what accepts a spring (g, °, mm, MPa), by the names that templates use."""
-    spring, (least, most) = robot.layout.drive.spring, torque_shares(robot)
-    return {
-        "reamed_mm": robot.layout.axle_mm + REAMED_MM, "drawn_scale": scale_in_words(spring),
-        "shank_mm": math.floor(2.0 * spring.mandrel_mm) / 2.0, "grams": loaded_grams(spring), "least_share": least,
-        "most_share": most, "early_share": early_torque_share(robot), "weak_share": least_energy_share(robot),
-        "scale_kg": scale_range_kg(robot),
-    }  # fmt: skip
-
-
 TORQUE_M3_NM, TORQUE_M2_NM, TORQUE_PLASTIC_NM = 0.5, 0.1, 0.3
 """Judgement: a third of what M3 and M2 of strength 8.8 bear in steel, and hand-tight in plastic."""
 PRESS_N = 50.0
@@ -74,13 +63,11 @@ def guide_values(robot: Robot, steps: Sequence[Step], bill: Bill) -> Mapping[str
     """Return figures, articles and lists of everything that the guide says of a robot."""
     return MappingProxyType(
         operation_values(robot)
-        | inspection_values(robot)
         | order_values(robot, bill)
         | _has(robot)
         | _springs(robot)
         | _sizes(robot)
         | _jump(robot)
-        | _wires(robot)
         | {
             "mass_g": 1000.0 * robot.mass_kg,
             "broken": [finding.name for finding in errors(limits_of(robot))],
@@ -89,6 +76,9 @@ def guide_values(robot: Robot, steps: Sequence[Step], bill: Bill) -> Mapping[str
             "tools": sorted({one.move.tool.name for step in steps for one in step.placed if one.move.tool}),
             "pair_percent": PAIR_PERCENT,
             "ordered": ORDERED,
+            "wires": [(str(start), str(end), colour, length) for _, start, end, colour, length in wires(robot)],
+            "soldering": bool(soldering_svg(robot)),
+            "jumps": float(f"{jumps_per_charge(robot):.2g}"),
         }
     )
 
@@ -110,10 +100,11 @@ def _has(robot: Robot) -> dict[str, Any]:
 
 
 def _springs(robot: Robot) -> dict[str, Any]:
-    """Return what hands feel of the springs; with the leg on its stop they are less loaded than at rest."""
+    """Return what accepts a spring, and what hands feel; with the leg on its stop it is less loaded than at rest."""
     spring, layout = robot.layout.drive.spring, robot.layout
     at_stop = math.degrees(spring.preload_rad - layout.stop.angle_rad)
     per_deg_n, (narrower, wider) = spring.rate_nmm_per_deg / spring.arms.lever_mm, arms_off_deg(robot)
+    least, most = torque_shares(robot)
     without = spring.stiffness_nm_per_rad * (spring.wound_rad - spring.preload_rad)
     return {
         "spring": spring, "stock": robot.workshop.stock_spring, "loadings": robot.workshop.safety.jumps,
@@ -125,7 +116,11 @@ def _springs(robot: Robot) -> dict[str, Any]:
         "most_slack_deg": math.ceil(max(0.0, narrower - at_stop) - ROUND_OFF_DEG),
         "arm_n": max(1.0, (at_stop + wider) * per_deg_n), "stop_deg": max(0.0, at_stop),
         "stop_n": max(0.0, at_stop) * per_deg_n, "energy_j": robot.spring.energy_j,
-        "push_ms": 1000.0 * robot.release.push_off_s,
+        "push_ms": 1000.0 * robot.release.push_off_s, "reamed_mm": layout.axle_mm + REAMED_MM,
+        "drawn_scale": scale_in_words(spring), "shank_mm": math.floor(2.0 * spring.mandrel_mm) / 2.0,
+        "grams": loaded_grams(spring), "least_share": least, "most_share": most,
+        "early_share": early_torque_share(robot), "weak_share": least_energy_share(robot),
+        "scale_kg": scale_range_kg(robot),
     }  # fmt: skip
 
 
@@ -178,10 +173,3 @@ def _jump(robot: Robot) -> dict[str, Any]:
         return unknown
     far, high = (max(1.0, math.ceil(2.0 * ROOM_AHEAD * metres) / 2.0) for metres in (reach, rise))
     return {"range_mm": 10 * round(100.0 * reach), "rise_mm": 10 * round(100.0 * rise), "far_m": far, "high_m": high}
-
-
-def _wires(robot: Robot) -> dict[str, Any]:
-    """Return the wires of the table: both ends, colour, length (mm; 0 is none)."""
-    rows = [(str(start), str(end), colour, length) for _, start, end, colour, length in wires(robot)]
-    jumps = float(f"{jumps_per_charge(robot):.2g}")
-    return {"wires": rows, "soldering": bool(soldering_svg(robot)), "jumps": jumps}
