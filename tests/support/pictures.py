@@ -10,7 +10,7 @@ def with_few_pictures(patch: pytest.MonkeyPatch, frames: int = 3) -> None:
     """Draw a jump in few pictures, and three steps of the assembly."""
     views = renders.named_views
     patch.setattr(renders, "JUMP_FRAMES", frames)
-    patch.setattr(renders, "named_views", lambda robot: views(robot)[:3])
+    patch.setattr(renders, "named_views", lambda robot: list(views(robot))[:3])
 
 
 def with_plain_figures(patch: pytest.MonkeyPatch) -> None:
