@@ -128,10 +128,8 @@ class Comparison(ByValue):
             figures = [one.figures[name] for one in self.robots]
             shown = ["–" if value is None else f"{factor * value:.{digits}f}" for value in figures]
             yield [f"{label} ({unit})", *shown]
-        for label, limits in (
-            ("tightest", [one.findings[0] for one in self.robots]),
-            ("tightest that differs", self.differing),
-        ):
+        first_ones = [one.findings[0] for one in self.robots]
+        for label, limits in (("tightest", first_ones), ("tightest that differs", self.differing)):
             yield [label, *(f"{limit.name}, {used(limit)}" for limit in limits)]
         first, *others = (one.figures for one in self.robots)
         for name in PRICE if others else ():

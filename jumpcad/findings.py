@@ -10,12 +10,8 @@ Severity = Literal["info", "warning", "error"]
 SEVERITIES: tuple[Severity, ...] = get_args(Severity)
 TRIVIAL = 0.1
 """Use of a limit below which it is trivially kept, and does not count as one; judgement."""
-SHOWN_AS = {
-    "rad": ("°", 180.0 / math.pi),
-    "rad/s": ("°/s", 180.0 / math.pi),
-    "J": ("mJ", 1000.0),
-    "N·m": ("mN·m", 1000.0),
-}
+DEGREES = 180.0 / math.pi
+SHOWN_AS = {"rad": ("°", DEGREES), "rad/s": ("°/s", DEGREES), "J": ("mJ", 1000.0), "N·m": ("mN·m", 1000.0)}
 """The unit that people read instead of another one, and the factor."""
 
 
@@ -148,9 +144,8 @@ class Finding:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""
-        return {
-            ("remedy" if key == "ways" else key): value for key, value in (vars(self) | {"ways": self.remedy}).items()
-        }
+        data = vars(self) | {"ways": self.remedy}
+        return {"remedy" if key == "ways" else key: value for key, value in data.items()}
 
 
 def bare(name: str, severity: Severity, margin: float, unit: str) -> Finding:

@@ -218,11 +218,8 @@ def _log_density(datum: Datum, value: Array, deviation: Array) -> Array:
     else:
         scale, off = deviation, (datum.value - value) / deviation
     if datum.what == "distance":
-        constant = (
-            gammaln((STUDENT_T_DEGREES + 1.0) / 2.0)
-            - gammaln(STUDENT_T_DEGREES / 2.0)
-            - 0.5 * math.log(STUDENT_T_DEGREES * math.pi)
-        )
+        half = STUDENT_T_DEGREES / 2.0
+        constant = gammaln(half + 0.5) - gammaln(half) - 0.5 * math.log(STUDENT_T_DEGREES * math.pi)
         found = constant - (STUDENT_T_DEGREES + 1.0) / 2.0 * np.log1p(off * off / STUDENT_T_DEGREES) - np.log(scale)
     else:
         found = -0.5 * off * off - np.log(scale)

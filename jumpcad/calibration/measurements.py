@@ -132,10 +132,8 @@ def lengths(jumps: Sequence[Jumps]) -> list[Length]:
     """
     found: dict[tuple[str, str, int], list[tuple[float, int]]] = {}
     for number, series in enumerate(jumps):
-        for what, of, values in (
-            ("distance", series.distance_of, series.distance_mm),
-            ("height", series.height_of, series.height_mm),
-        ):
+        for what in ("distance", "height"):
+            of, values = getattr(series, f"{what}_of"), getattr(series, f"{what}_mm")
             if values and of is not None:
                 kind = what, of, number if of == "unknown" else 0
                 mean = sum(map(math.log, values)) / len(values)

@@ -87,12 +87,8 @@ class CalibrationPosterior(ByValue):
         """Return pairs of correlated parameters with their correlation, strongest first."""
         found = np.atleast_2d(np.corrcoef(self.z, rowvar=False))
         keys = [one.key for one in self.model.parameters]
-        pairs = [
-            (keys[i], keys[j], float(found[i, j]))
-            for i in range(len(keys))
-            for j in range(i + 1, len(keys))
-            if abs(found[i, j]) >= CORRELATED
-        ]
+        strong = np.argwhere(np.triu(np.abs(found) >= CORRELATED, 1)).tolist()
+        pairs = [(keys[i], keys[j], float(found[i, j])) for i, j in strong]
         return sorted(pairs, key=lambda pair: -abs(pair[2]))
 
     def residuals(self) -> list[dict[str, Any]]:

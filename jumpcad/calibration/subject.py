@@ -127,9 +127,8 @@ class Subject:
         weighed = self.measured.mass
         if weighed.robot_g is not None:
             return weighed_mass(weighed.robot_g, 1000.0 * self.robot.mass_kg, weighed.robot_error_g)
-        known = sum(
-            part.mass.mass_kg * len(part.placements) for part in self.robot.parts if part.mass_source == "weighed"
-        )
+        on_scale = (part for part in self.robot.parts if part.mass_source == "weighed")
+        known = sum(part.mass.mass_kg * len(part.placements) for part in on_scale)
         return modelled_mass(1.0 - known / self.robot.mass_kg)
 
     @property
@@ -137,9 +136,8 @@ class Subject:
         """Prior of the coefficient of friction between feet and floor."""
         weight_n = self.robot.mass_kg * self.mass.first * GRAVITY_M_S2
         tests = self.measured.floor
-        found = [pull / weight_n for pull in tests.pull_n] + [
-            math.tan(math.radians(slope)) for slope in tests.slope_deg
-        ]
+        found = [pull / weight_n for pull in tests.pull_n]
+        found += [math.tan(math.radians(slope)) for slope in tests.slope_deg]
         return tested_floor(found) if found else FLOOR
 
 

@@ -38,10 +38,9 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
             f"jumps {1000.0 * (jump.get('touchdown_distance_m') or jump['ballistic_range_m']):.0f} mm far{made} and "
             f"{1000.0 * jump['com_rise_m']:.0f} mm high with {1000.0 * jump['mass_kg']:.1f} g"
         )
-    why = [
-        f": {finding['message']}; {finding['remedy']}" for finding in jump["findings"] if finding["severity"] == "error"
-    ]
-    return f"does not jump ({jump['verdict']}){''.join(why[:1])}"
+    wrong = [finding for finding in jump["findings"] if finding["severity"] == "error"]
+    why = "".join(f": {finding['message']}; {finding['remedy']}" for finding in wrong[:1])
+    return f"does not jump ({jump['verdict']}){why}"
 
 
 def warn_of_no_jump(robot: "Robot") -> None:

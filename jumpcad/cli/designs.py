@@ -14,10 +14,8 @@ from jumpcad.files import to_toml
 
 TEMPLATE = "kenan-2.0"
 
-FROM, NEW = (
-    "Design to copy: a template's name or a file.",
-    "Write a workshop file instead, copied from this one: a template's name or a file.",
-)
+FROM = "Design to copy: a template's name or a file."
+NEW = "Write a workshop file instead, copied from this one: a template's name or a file."
 FromOption = Annotated[
     subjects.Text, subjects.option(FROM, None, "--from", shown=TEMPLATE, autocompletion=subjects.completion("robots"))
 ]

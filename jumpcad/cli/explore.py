@@ -21,12 +21,8 @@ VIEWS = ("sweep", "pca", "importance", "feasibility")
 
 SAMPLES, POINTS, AROUND, OVER = 1000, 21, "best-bo", "rest_angle_deg,compression_ratio"
 """Defaults of the options."""
-USED_BY = {
-    "samples": ("pca", "importance"),
-    "points": ("sweep", "feasibility"),
-    "around": ("sweep", "feasibility"),
-    "over": ("feasibility",),
-}
+VARYING = ("sweep", "feasibility")
+USED_BY = {"samples": ("pca", "importance"), "points": VARYING, "around": VARYING, "over": ("feasibility",)}
 """Views that an option applies to."""
 ALONG = "Values of each parameter in a sweep or along an axis of the map."
 

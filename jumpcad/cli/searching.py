@@ -61,9 +61,8 @@ class SearchOptions:
 
     def space(self, robot: "search.RobotModel", **others: Any) -> "search.Space":
         """Return the space of a robot's workshop that the options describe."""
-        return search.Space.parse(
-            self.fix or (), self.bound or (), self.choose or (), workshop=robot.workshop, **others
-        )
+        changes = (one or () for one in (self.fix, self.bound, self.choose))
+        return search.Space.parse(*changes, workshop=robot.workshop, **others)
 
     def inputs(self) -> dict[str, str | None]:
         """Return the files that are read, by their options."""

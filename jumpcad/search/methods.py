@@ -24,6 +24,7 @@ class Method:
     least: int = 0  # evaluations: each of its parts has one
 
 
+FRONT = "front of two figures, such as range against electrical energy"
 PAPER = "paper"
 """The method that repeats the study's stages, within its bounds."""
 METHODS = {
@@ -31,13 +32,7 @@ METHODS = {
     for method in (
         Method("ga", "genetic.run_genetic", "genetic algorithm"),
         Method("bo", "bayesian.run_bayesian", "Bayesian optimisation", learns=True, ends=True),
-        Method(
-            "pareto",
-            "pareto.run_pareto",
-            "front of two figures, such as range against electrical energy",
-            front=True,
-            learns=True,
-        ),
+        Method("pareto", "pareto.run_pareto", FRONT, front=True, learns=True),
         Method(PAPER, "paper.run_paper", "the published study's stages", shares=True, least=7),
         Method("nsga2", "pareto.run_nsga2", "the same front by NSGA-II", front=True),
     )

@@ -169,10 +169,8 @@ class _Examined:
     def neighbours(self, new: int, seed: int, making: Tolerances) -> list[tuple[str, Variant]]:
         """Return the next neighbours, half of each kind."""
         generator = np.random.default_rng([seed, 4, self.index])
-        kinds = {
-            "parameters": making.varied(self.trial.variant, generator),
-            "print": making.neighbours(self.trial.variant, generator),
-        }
+        one = self.trial.variant
+        kinds = {"parameters": making.varied(one, generator), "print": making.neighbours(one, generator)}
         start, end = self.examined // 2, (self.examined + new) // 2
         return [(kind, variant) for kind, variants in kinds.items() for variant in variants[start:end]]
 

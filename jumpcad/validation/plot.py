@@ -26,10 +26,8 @@ def validation(robots: Sequence[dict[str, Any]]) -> Figure:
         axes.errorbar(middle, -place, xerr=[[middle - low], [high - middle]], fmt="o", ms=5, capsize=3,
                       color=COLOURS[row["verdict"]], mfc=hollow)  # fmt: skip
     axes.axvline(1.0, color=INK, lw=0.8)
-    names = [
-        f"{one['tier']}: {one['name']}, {row['name']}{' ?' if row['verdict'] == 'not judged' else ''}"
-        for one, row in rows
-    ]
+    marks = {"not judged": " ?"}
+    names = [f"{one['tier']}: {one['name']}, {row['name']}{marks.get(row['verdict'], '')}" for one, row in rows]
     axes.set_yticks([-place for place in range(len(rows))], names, fontsize=6.5)
     title = "blue agrees, red differs, grey: chosen by it, orange: not judged"
     labels(axes, "computed over measured, 5…50…95 %", "", title)

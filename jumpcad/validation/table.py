@@ -62,10 +62,9 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
     """Return every robot with its tier and figures, as plain data, with a user's figures by `ROBOT.FIGURE`."""
     facts = load_facts(entered)
     epfl = facts.robots["kovac-2008"]
-    members = family(
-        mass_g=epfl.value("mass_g"), spring_energy_j=epfl.value("spring_energy_j"),
-        takeoff_angle_deg=epfl.value("takeoff_angle_deg"), pushoff_ms=epfl.value("pushoff_ms"), seed=seed,
-    )  # fmt: skip
+    names = "mass_g", "spring_energy_j", "takeoff_angle_deg", "pushoff_ms"
+    figures: dict[str, Any] = {name: epfl.value(name) for name in names}
+    members = family(**figures, seed=seed)
     tables: list[tuple[str, str, Table]] = [
         ("kovac-2008", "mechanism", lambda robot, _: _mechanism(robot, members)),
         ("kovac-2008", "flight", _through_air),

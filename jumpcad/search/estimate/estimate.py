@@ -197,14 +197,11 @@ class Estimator:
             return None
         if variant.key not in self._estimates:
             laid = self.layout(variant)
-            self._estimates[variant.key] = None if isinstance(laid, Evaluation) else self._estimated(variant, laid)
+            self._estimates[variant.key] = None if isinstance(laid, Evaluation) else self.rough(variant, laid)
         return self._estimates[variant.key]
 
-    def rough(self, variant: Variant) -> Estimate | None:
-        """Return about what a variant would do if it has room; its layout is not looked at."""
-        return self._estimated(variant, None)
-
-    def _estimated(self, variant: Variant, laid: Mapping[str, float] | None) -> Estimate | None:
+    def rough(self, variant: Variant, laid: Mapping[str, float] | None = None) -> Estimate | None:
+        """Return about what a variant would do if it has room; better with the figures of its layout."""
         if self._figures is None:
             return None
         try:

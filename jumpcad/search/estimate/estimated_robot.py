@@ -77,9 +77,8 @@ def estimated_robot(design: Design, figures: Mapping[str, float], like: Robot) -
     plain = _plain(design)
     bodies = {name: _body(plain.bodies[name], figures, like.bodies[name]) for name in BODY_NAMES}
     spring = springs_on_leg(design, like.workshop.stock_spring, like.spring.preload_rad)
-    release = RollerOff(
-        figures["release_turn_rad"] - spring.wind_rad, figures["release_rad_s"], min(figures["release_ratio"], 1.0)
-    )
+    ratio = min(figures["release_ratio"], 1.0)
+    release = RollerOff(figures["release_turn_rad"] - spring.wind_rad, figures["release_rad_s"], ratio)
     return replace(
         plain,
         bodies=bodies,

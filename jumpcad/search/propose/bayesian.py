@@ -13,6 +13,7 @@ import numpy as np
 
 from jumpcad.dimensions import counted
 from jumpcad.process import one_thread
+from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
@@ -109,16 +110,15 @@ def run_steps(
     Return whether the search has `ended` before its evaluations, time or proposals were spent.
     """
     space, start, seed = evaluator.space, len(evaluator.trials), stage.request.seed
-    dry_run = DryRun.of(evaluator, phase, seed, stage.run)
+    dry_run = DryRun(evaluator, phase, seed, stage.run) if isinstance(evaluator.model, PrintedModel) else None
     if stage.initial:
         generator = np.random.default_rng([seed, 1])
         if dry_run:
             points = first_points(space, stage.initial, generator, dry_run.ranked, dry_run.starts_with)
         else:
             points = first_points(space, stage.initial, generator)
-        evaluator.evaluate(
-            [space.to_variant(point) for point in points], phase, 0, limit=stage.evaluations, run=stage.run
-        )
+        first = [space.to_variant(point) for point in points]
+        evaluator.evaluate(first, phase, 0, limit=stage.evaluations, run=stage.run)
     left = stage.evaluations - (len(evaluator.trials) - start)
     thetas: Mapping[str, Any] = {}
     for step in itertools.count(1):
@@ -144,9 +144,8 @@ def run_steps(
             notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
-            evaluator.evaluate(
-                [proposal.variant for proposal in proposals], phase, step, proposals=notes, run=stage.run
-            )
+            variants = [proposal.variant for proposal in proposals]
+            evaluator.evaluate(variants, phase, step, proposals=notes, run=stage.run)
             count = len(proposals)
         if count == 0:
             found = len(evaluator.trials) - start

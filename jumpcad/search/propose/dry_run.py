@@ -7,7 +7,6 @@ resumed search goes on alike.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Self
 
 import numpy as np
 
@@ -31,7 +30,10 @@ anew with every fit, and the time of a step grows with both."""
 
 
 class DryRun:
-    """Tries variants of one search for a printed robot; see `of`. What other phases or runs tried is not looked at."""
+    """Tries variants of one search for a printed robot: others are simulated as quickly.
+
+    What other phases or runs tried is not looked at.
+    """
 
     def __init__(self, evaluator: Evaluator, phase: str, seed: int, run: int) -> None:
         assert isinstance(evaluator.model, PrintedModel)
@@ -42,12 +44,6 @@ class DryRun:
         self._prior = {trial.key for trial in evaluator.prior}
         self._passed_over: list[Variant] = []
         self._failures: dict[Key, Trial | None] = {}  # until figures are fitted anew
-
-    @classmethod
-    def of(cls, evaluator: Evaluator, phase: str, seed: int, run: int) -> Self | None:
-        """Return the dry run of a search of printed robots; None of others, which are simulated as quickly."""
-        model = evaluator.model
-        return cls(evaluator, phase, seed, run) if isinstance(model, PrintedModel) else None
 
     @cached_property
     def ranked(self) -> list[Array]:

@@ -85,9 +85,8 @@ def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float
     if not jumped or len(known) < LEAST_LEARNED:
         return [(np.inf, None)] * CAPS
     places, costs = (list(column) for column in zip(*known, strict=True))
-    learned = Surrogate(
-        np.array([space.to_unit(trial.variant) for trial in places]), np.array(costs), None, True, space.categories
-    )
+    units = np.array([space.to_unit(trial.variant) for trial in places])
+    learned = Surrogate(units, np.array(costs), None, True, space.categories)
     caps = np.linspace(min(jumped), max(jumped), CAPS)[:-1].tolist()
     return [*((cap, partial(_above, learned, cap)) for cap in caps), (np.inf, None)]
 

@@ -119,9 +119,8 @@ def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]
 def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
     from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
-    kernel = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5) + WhiteKernel(
-        1e-4, (1e-6, 1e-1)
-    )
+    smooth = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5)
+    kernel = smooth + WhiteKernel(1e-4, (1e-6, 1e-1))
     return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
 
 

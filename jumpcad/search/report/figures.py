@@ -64,9 +64,8 @@ def save_figure(figure: Figure, folder: str | Path, name: str, force: bool = Fal
     """
     pixels = io.BytesIO()
     if name in PICTURES:
-        figure.supxlabel(
-            fill(report_words("pictures")[name], int(LETTERS_PER_INCH * figure.get_figwidth())), fontsize=7.5, color=INK
-        )
+        words = fill(report_words("pictures")[name], int(LETTERS_PER_INCH * figure.get_figwidth()))
+        figure.supxlabel(words, fontsize=7.5, color=INK)
     with matplotlib.rc_context(STYLE):
         drawn = svg_text(figure)
         figure.savefig(pixels, format="png", dpi=PNG_DPI, metadata={"Software": None})

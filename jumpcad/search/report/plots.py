@@ -49,9 +49,8 @@ def history(trials: Sequence[Trial], objective: Objective) -> Figure:
     for colour, phase in zip(COLOURS, dict.fromkeys(trial.phase for trial in trials), strict=False):
         of_phase = np.array([trial.phase == phase for trial in trials])
         axes.plot(number[of_phase], scores[of_phase], ".", ms=4, color=colour, label=phase, rasterized=many)
-    axes.plot(
-        number, np.fmax.accumulate(scores), "-", drawstyle="steps-post", lw=1.2, color="black", label="best so far"
-    )
+    best = np.fmax.accumulate(scores)
+    axes.plot(number, best, "-", drawstyle="steps-post", lw=1.2, color="black", label="best so far")
     rejected = number[np.isnan(scores)]
     _at_the_foot(axes, rejected, "|", color=GREY, label="rejected", rasterized=many)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))

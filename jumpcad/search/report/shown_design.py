@@ -97,10 +97,7 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """Return label and value of what is shown at once, and of the other figures."""
     design, metrics = trial.design, trial.evaluation.metrics
     values = design.model_dump() | dict(trial.workshop)
-    first = [
-        (name, value if isinstance(value, str) else with_unit(value_words(value, 5), name))
-        for name, value in values.items()
-    ]
+    first = [(name, with_unit(value_words(value, 5), name)) for name, value in values.items()]
     lengths = (design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
     first.append(("main leg, front link, foot, toe", ", ".join(f"{length:.1f}" for length in lengths) + " mm"))
     first.append(figure_words("spring_energy_j", metrics.get("spring_energy_j", energy_j(design))))
@@ -121,10 +118,8 @@ def joints_mm(design: Design) -> dict[str, dict[str, tuple[float, float]]]:
         ankle, eye = (complex(points(joint)[0]) for joint in (pose.ankle_mm, pose.front_eye_mm))
         back, front = (complex(points(joint)) for joint in (linkage.back_pivot_mm, linkage.front_pivot_mm))
         at = {"toe tip": complex(float(toe_tip_mm(design)[0]), 0.0), "ankle": 0j}
-        at |= {
-            joint: (place - ankle) * turn
-            for joint, place in (("front eye", eye), ("front pivot", front), ("back pivot", back))
-        }
+        others = {"front eye": eye, "front pivot": front, "back pivot": back}
+        at |= {joint: (place - ankle) * turn for joint, place in others.items()}
         places = np.round([(point.real, point.imag) for point in at.values()], 1) + 0.0
         found[name] = dict(zip(at, map(tuple, places.tolist()), strict=True))
     return found

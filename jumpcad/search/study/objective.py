@@ -177,6 +177,7 @@ def _range_m(metrics: Mapping[str, float]) -> float:
     return metrics["base_distance_m"] if "base_distance_m" in metrics else metrics["ballistic_range_m"]
 
 
+CHARGE = "range × jumps of a full battery, put on its feet each time"
 OBJECTIVES: dict[str, Objective] = {
     objective.name: objective
     for objective in (
@@ -193,12 +194,7 @@ OBJECTIVES: dict[str, Objective] = {
         Objective(
             "range-per-spring-joule", "range per joule in springs", "m/J", lambda m: _range_m(m) / m["spring_energy_j"]
         ),
-        Objective(
-            "metres-per-charge",
-            "range × jumps of a full battery, put on its feet each time",
-            "m",
-            lambda m: _range_m(m) * m["jumps_per_charge"],
-        ),
+        Objective("metres-per-charge", CHARGE, "m", lambda m: _range_m(m) * m["jumps_per_charge"]),
         Objective("jumps-per-joule", "jumps per joule of electricity", "1/J", lambda m: 1.0 / m["electrical_energy_j"]),
     )
 }

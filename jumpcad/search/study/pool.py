@@ -185,7 +185,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
         return Pool(InProcess, InProcess.shutdown, 1)
 
     require_descriptors(workers)
-    return Pool(lambda: LocalWorkers(workers), LocalWorkers.end, workers, limit_s)
+    return Pool(lambda: LocalWorkers(workers), lambda one: one.shutdown(kill_workers=True), workers, limit_s)
 
 
 @check_arguments

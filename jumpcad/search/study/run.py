@@ -187,12 +187,9 @@ def _read_prior(request: Request) -> tuple[list[Trial], str]:
             by = " by another program" if program else ""
             where = difference(theirs, ours, "model")
             raise JumpcadError(f"{request.prior}: was made{by} with another model than this search ({where})")
-        objective, held = request.aim, store.trials()
-        trials = [
-            replace(trial, score=objective.score(trial.evaluation))
-            for trial in held
-            if request.space.contains(trial.variant)
-        ]
+        held = store.trials()
+        inside = (trial for trial in held if request.space.contains(trial.variant))
+        trials = [replace(trial, score=request.aim.score(trial.evaluation)) for trial in inside]
         if held and not trials:
             return [], f"{request.prior}: none of its designs lies in this space, so nothing is learned from it"
         same = all(trial.model == request.model.digest for trial in trials)

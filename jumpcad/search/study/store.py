@@ -192,9 +192,8 @@ class StudyStore(AbstractContextManager["StudyStore"]):
 
     def _has_no_score(self) -> bool:
         try:
-            return not self._connection.execute(
-                "SELECT EXISTS (SELECT 1 FROM trials WHERE score IS NOT NULL)"
-            ).fetchone()[0]
+            scored = self._connection.execute("SELECT EXISTS (SELECT 1 FROM trials WHERE score IS NOT NULL)")
+            return not scored.fetchone()[0]
         except (AttributeError, sqlite3.Error):  # it could not be opened, or there was no space for its tables
             return True
 

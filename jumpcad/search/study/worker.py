@@ -39,10 +39,6 @@ class LocalWorkers(loky.ProcessPoolExecutor):  # type: ignore[misc]  # loky has 
             future: Future[Any] = super().submit(fn, *args, **kwargs)
         return future
 
-    def end(self) -> None:
-        """End the processes without waiting for their tasks."""
-        self.shutdown(kill_workers=True)
-
 
 def require_descriptors(workers: int) -> None:
     """Require that so many workers can be started: 17 descriptors are open for two, and two more for each other one."""

@@ -77,4 +77,4 @@ def test_a_worker_computes_in_one_thread():
     workers = worker.LocalWorkers(1)
     variables = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
     assert [workers.submit(os.getenv, name).result() for name in variables] == ["1", "1", "1"]
-    workers.end()
+    workers.shutdown(kill_workers=True)
