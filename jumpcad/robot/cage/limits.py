@@ -8,7 +8,18 @@ import numpy as np
 from jumpcad.catalogue import CageRod
 from jumpcad.dimensions import GRAVITY_M_S2, PAD_WALL_MM
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
-from jumpcad.robot.cage.place import BAR_MM, HORN_MM, HORN_MORE_MM, HORN_SIZE_MM, LAP_MM, Cage, ground, plate_ends_mm
+from jumpcad.robot.cage.place import (
+    BAR_MM,
+    HORN_HIGHER,
+    HORN_MM,
+    HORN_MORE,
+    HORN_SIZE_MM,
+    LAP_MM,
+    Cage,
+    ground,
+    horn_mm,
+    plate_ends_mm,
+)
 from jumpcad.robot.layout import Layout, moving_obstacles
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.space.room import EVERYWHERE, clearance
@@ -110,8 +121,8 @@ BASIS = {
     ),
     "cage_horn": Basis(
         f"6·F·x/(2·t·h²) ≤ strength_in_plane_mpa/s of the body (MPa), F = √(2·V·k) the hoop's force, V as in "
-        f"`cage_landing`, k = E·I/(0.149·R³), x from the bar, t = body.plate_mm + {HORN_MORE_MM:g} mm, h = "
-        f"{HORN_MM[0]:g} mm at the bar to {HORN_MM[1]:g} mm at the plates",
+        f"`cage_landing`, k = E·I/(0.149·R³), x from the bar, p = body.plate_mm, t = {1.0 + HORN_MORE:g}·p, h = "
+        f"{HORN_MM[0]:g} mm at the bar to min({HORN_MM[1]:g} mm + {HORN_HIGHER:g}·p, {HORN_MM[2]:g} mm) at the plates",
         f"cantilever: Roark, ch. 8; {MODEL}",
     ),
     "cage_side": Basis(
@@ -200,7 +211,7 @@ def _horns(robot: Robot, cage: Cage) -> Iterator[tuple[float, float, float]]:
     The rear ones are clamped where the plates are wide: at the leg's axle, which the cam's may stand behind.
     """
     layout, body = robot.layout, robot.workshop.material("body")
-    plate, end = float(np.ptp(layout.lateral.left_plate)), plate_ends_mm(layout)
+    plate, end, (high, more) = float(np.ptp(layout.lateral.left_plate)), plate_ends_mm(layout), horn_mm(layout)
     beside = (HORN_SIZE_MM[0] - BAR_MM) / 2.0 - robot.workshop.fits.drawn.press_mm
     holds = body.strength_in_plane_mpa * plate * beside**2 / (3.0 * LAP_MM)
     wide = (float(layout.hub_mm[0]) - layout.axle_mm / 2.0 - PAD_WALL_MM, end[1])
@@ -208,7 +219,7 @@ def _horns(robot: Robot, cage: Cage) -> Iterator[tuple[float, float, float]]:
         along = bar.horn_end_mm - axle
         share = abs(float(along @ bar.up)) / math.hypot(*along)
         lengths = (abs(float(bar.place_mm[0]) - ends), abs(float(bar.place_mm[0]) - clamped))
-        yield two_horns(body, lengths, HORN_MM, (plate + HORN_MORE_MM, plate), share, holds)
+        yield two_horns(body, lengths, (HORN_MM[0], high), (plate + more, plate), share, holds)
 
 
 def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None = None) -> Iterator[Finding]:

@@ -27,9 +27,10 @@ LAP_MM = 3.0
 """Depth of the notches in bar and horn, half of the lap joint; judgement."""
 LAP_HEIGHT_MM, LAP_WALL_MM = 9.0, 4.0
 """Height of a bar at the plates, and its length beyond them; judgement: 6 mm are left above the notch."""
-HORN_MM, HORN_MORE_MM = (5.0, 13.0), 1.0
-"""Height of a horn at its bar and at the plates, and how much thicker than these it is between them, inwards: it bends
-evenly in a fall, sideways and upwards (`cage_side`, `cage_ahead`); judgement."""
+HORN_MM, HORN_HIGHER, HORN_MORE = (5.0, 7.0, 13.0), 2.1, 0.35
+"""Height of a horn at its bar, at plates without thickness, and at most; how much higher at the plates, and thicker
+inwards between them, for a millimetre of plate. It bends evenly in a fall, sideways and upwards (`cage_side`,
+`cage_ahead`); a higher one would break a thin plate beside its notch. Judgement."""
 HORN_SIZE_MM, HORN_BELOW_MM = (10.6, 10.5), 3.75
 """A horn's end around the notch, across and along the bar's plane; that end's middle below the bar's."""
 SWAY_MM = 0.7
@@ -200,6 +201,12 @@ def cage_place(layout: Layout, workshop: Workshop) -> Cage | None:
         rear, front, bow = _bow(rear, front, lean, level)
         arcs.append(bow)
     return Cage(rod, table.bar_mm, socket, (rear, front), tuple(arcs))
+
+
+def horn_mm(layout: Layout) -> tuple[float, float]:
+    """Return the height of a horn at the plates, and how much thicker than these it is."""
+    plate = float(np.ptp(layout.lateral.left_plate))
+    return min(HORN_MM[1] + HORN_HIGHER * plate, HORN_MM[2]), HORN_MORE * plate
 
 
 def plate_ends_mm(layout: Layout) -> tuple[float, float]:

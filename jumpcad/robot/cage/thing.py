@@ -30,6 +30,7 @@ from jumpcad.robot.cage.place import (
     CageArc,
     CageBar,
     cage_place,
+    horn_mm,
     plate_ends_mm,
 )
 from jumpcad.robot.electronics.wired import TIE, TIE_G, TIE_MM
@@ -106,11 +107,11 @@ def horns(layout: Layout, blank: Region | None = None) -> Region:
     regions = []
     axles = (layout.hub_mm, layout.front_mm)
     for bar, axle, x in zip(cage.bars, axles, plate_ends_mm(layout), strict=True):
-        end, low = bar.horn_end_mm, HORN_MM[0]
+        end, low, (high, _) = bar.horn_end_mm, HORN_MM[0], horn_mm(layout)
         root = axle + (end - axle) * (x - axle[0]) / (end[0] - axle[0])
-        strip = hull([disc(HORN_MM[1], root), disc(low, end)])
+        strip = hull([disc(high, root), disc(low, end)])
         tip = _leaning(rectangle(HORN_SIZE_MM, (0.0, -HORN_BELOW_MM), 2.0), bar)
-        regions += [strip - tip - blank] if blank else [strip, stadium(axle, root, HORN_MM[1]), tip]
+        regions += [strip - tip - blank] if blank else [strip, stadium(axle, root, high), tip]
     return union(regions)
 
 

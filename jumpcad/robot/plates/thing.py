@@ -14,7 +14,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Face, Placement, lying_stack
 from jumpcad.parts.purchased import BoughtPart, bought, hexagon_outline, placed_screw
-from jumpcad.robot.cage.place import HORN_MORE_MM, Cage
+from jumpcad.robot.cage.place import Cage, horn_mm
 from jumpcad.robot.cage.thing import horn_openings, horns
 from jumpcad.robot.electronics.fittings import fitting_openings
 from jumpcad.robot.layout import Layout
@@ -55,7 +55,7 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     slabs = [(y0, y1 - floor, whole - union([through, shaft, bores])), (y1 - floor, y1, whole - (through + shaft))]
     slabs.append(_boss(layout, holes, y0 - layout.boss_mm, y0))
     thicker = horns(layout, blank.hull) if layout.of(Cage) else None
-    slabs += [(y0 - HORN_MORE_MM, y0, thicker)] if thicker else []
+    slabs += [(y0 - horn_mm(layout)[1], y0, thicker)] if thicker else []
     words = layout.label and f"{label} L".strip()
     left = _drawing("body_plate_left", holes, slabs, (y1 - ENGRAVING_MM, y1), words, "left", covered)
     y0, y1 = lateral.right_plate
@@ -75,7 +75,7 @@ def plates(layout: Layout, workshop: Workshop) -> list[Drawing]:
     for low, high in itertools.pairwise(levels):
         socket = around - (window if high <= seat else cavity)
         slabs.append((low, high, union([socket, *(region for _, top, region in bosses if top >= high)])))
-    slabs += [(y1, y1 + HORN_MORE_MM, thicker)] if thicker else []
+    slabs += [(y1, y1 + horn_mm(layout)[1], thicker)] if thicker else []
     right = _drawing(
         "body_plate_right", holes, slabs, (y0, y0 + ENGRAVING_MM), layout.label and f"{label} R".strip(), "right"
     )
