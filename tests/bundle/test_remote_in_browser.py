@@ -66,7 +66,7 @@ def test_buttons_write_the_firmwares_commands_and_answers_are_shown(driver: Any,
     assert driver.execute_script("return window.written") == [f"{line}\n" for line in lines]
     for packet in ("ready: keep away fro", "m the leg; 0 jumps\n", "turned\nrea"):
         driver.execute_script("window.answer(arguments[0])", packet)
-    assert driver.find_element("id", "answer").text == "turned"
+    assert driver.find_element("id", "answer").text == "ready: keep away from the leg; 0 jumps\nturned"
     assert driver.execute_script("return document.documentElement.scrollWidth") <= PHONE["width"]
     driver.execute_script("window.device.dispatchEvent(new Event('gattserverdisconnected'))")
     assert "lost" in driver.find_element("id", "state").text

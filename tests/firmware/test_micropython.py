@@ -456,6 +456,19 @@ def test_a_wheel_turns_left_and_right_by_time_once_it_is_wound(
     assert "unknown command" in capsys.readouterr().out
 
 
+def test_a_press_during_a_turn_ends_the_turn_alone(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture
+) -> None:
+    """A turn of 4.5 s is pressed after 1 s: the robot stays wound, and the next press releases."""
+    bench = Bench({200: "wind", 2000: "turn 90", 7000: "state"})
+    bench.steers, bench.presses = True, (3000, 8000)
+    run_main(bench, monkeypatch)
+    before, after = capsys.readouterr().out.split("jump in 3 s")
+    assert 900.0 < bench.left_ms < 1100.0
+    assert before.index("the turn was stopped") < before.rindex("ready: keep away from the leg; 0 jumps")
+    assert "jump 1;" in after
+
+
 def test_a_telephone_commands_it_and_a_lost_link_stops_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nordic's service; answers in packets of 20 bytes; a turn of 9 s ends when the telephone leaves after 2 s."""
     bench = Bench({})
