@@ -224,6 +224,7 @@ def run():
                 output.say("%d jumps in a row; stop or the button ends it" % number)
             ended = row.left and (pressed or word in ("stop", "wind", "jump", "turn"))
             if pressed or word in ("stop", "wind", "jump", "go"):
+                pressed = pressed and not wheel.turning  # it ends the turn, and nothing begins
                 wheel.stop()
             if ended:
                 row.end()
