@@ -11,7 +11,7 @@ from support.built import built, geared, placed
 
 from jumpcad.bundle.drawings.lead_lines import leads_of
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
-from jumpcad.bundle.drawings.wiring import drawings_of
+from jumpcad.bundle.drawings.wiring import drawings_of, wires
 from jumpcad.bundle.facts import arms_off_deg, torque_shares
 from jumpcad.robot.electronics.leads import plate_of
 from jumpcad.robot.robot import Robot
@@ -233,3 +233,16 @@ def test_the_sensors_terminals_are_named_at_the_wires_of_their_colours(drawings:
         x, y = float(text.get("x", "")), float(text.get("y", "")) - 0.8  # the middle of its letters
         near = min(ends, key=lambda end: math.dist((x, y), (float(end.get("cx", "")), float(end.get("cy", "")))))
         assert near.get("fill") == colour, word
+
+
+def test_leads_of_a_wheel_run_behind_the_trays_and_inside_along_the_right_plate() -> None:
+    """No longer than they are cut, soldered ends aside; the wheel's end is named in the plate's view."""
+    robot = built("best-steered", "best-steered")
+    (_, inside), cut = robot.layout.lateral.right_plate, {start: mm for _, start, _, _, mm in wires(robot)}
+    leads = [lead for lead in leads_of(robot) if "steering motor" in lead.parts]
+    assert len(leads) == 2
+    for lead in leads:
+        assert (abs(lead.points_mm[2:4, 1] - inside - 2.0) < 2.0).all()
+        assert sum(map(math.dist, lead.points_mm, lead.points_mm[1:])) <= cut[lead.ends[0]] - 10.0
+    page = ET.fromstring(drawings_of(robot)["leads.svg"])
+    assert {"steering motor", "← to the wheel"} <= {one.text for one in page.iter(f"{SPACE}text")}

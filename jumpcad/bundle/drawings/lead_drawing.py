@@ -18,6 +18,7 @@ from jumpcad.robot.electronics.fittings import wire_hole_mm
 from jumpcad.robot.electronics.leads import OWN_LEGS, outer_way, plate_of
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.place import Steering
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
@@ -29,8 +30,8 @@ LEAD_EDGE_MM = 1.0
 """What it shows beyond the outermost lead."""
 HEAD_MM = 2.9
 """Radius of a standoff's screw head (ISO 7380-1 M3)."""
-OUTSIDE = ("sensor", "motor")
-"""Parts whose terminals are seen from outside."""
+OUTSIDE = ("sensor", "motor", "steering motor")
+"""Parts whose terminals are beside the trays, in the view of a plate."""
 USB_MM = 2.5
 """How much of the USB socket is drawn on the board; judgement."""
 FINE_MM = 0.05
@@ -107,7 +108,8 @@ def _named(layout: Layout, side: str) -> Iterator[tuple[str, list[float]]]:
     fittings = layout.fittings
     x, z = wire_hole_mm(fittings.left_mm if side == "left" else fittings.right_mm)
     yield "wire hole, tie above it", [x, 0.0, z + 10.0]
-    for part, below in (("sensor", 7.0), ("motor", 7.0), ("switch", 4.5)):
+    wheel = [("steering motor", 5.0)] * (layout.of(Steering) is not None)
+    for part, below in (("sensor", 7.0), ("motor", 7.0), ("switch", 4.5), *wheel):
         if plate_of(layout, part) == side:
             at = outer_way(layout, part)[0]
             yield part, [float(at[0]), 0.0, float(at[2]) - below]
@@ -152,6 +154,8 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
             f"wire hole of the {side} plate": (hole + 3.5, aside),
             f"← to the {outside}, outside": (back + 0.6, aside),
         }
+        if side == "right" and layout.of(Steering) is not None:
+            names["← to the wheel"] = (back + 0.6, y[1] + 0.8)
         drawn = [
             _box(view, (np.array([first, y[0], 0.0]), np.array([last, y[1], 0.0])), "", colour)
             for (first, last), colour in spans.items()

@@ -99,14 +99,15 @@ BELOW_SCREW_MM = 5.0
 OPENING_EDGE_MM = 2.0
 """From the opening for the USB plug to a lead; judgement."""
 AHEAD_MM = 3.0
-"""From the trays' front end to the battery's own leads; judgement."""
+"""From the trays' front end to the battery's own leads, and behind them to the wheel's; judgement."""
 
 
 def plate_of(layout: Layout, part: str) -> str:
     """Return at which plate a part is: `left`, `right`, or empty where it lies on the trays."""
     if part == "sensor" and layout.sensor is not None:
         return "left"
-    return "right" if part == "motor" or (part == "switch" and layout.fittings.switch_mm is not None) else ""
+    there = part == "switch" and layout.fittings.switch_mm is not None
+    return "right" if there or part in ("motor", "steering motor") else ""
 
 
 def battery_way(layout: Layout) -> Array:
@@ -122,8 +123,15 @@ def battery_way(layout: Layout) -> Array:
 
 
 def outer_way(layout: Layout, part: str) -> list[Array]:
-    """Return the points (3,) that a part's leads pass until they are inside, at the trays: through the wire hole."""
+    """Return the points (3,) that a part's leads pass until they are inside, at the trays: through the wire hole.
+
+    Those of the steering wheel's motor come to the right plate, behind what swings there.
+    """
     way = way_in(layout, part)
+    if part == "steering motor":
+        x, _, z = way[0]
+        way += [np.array([x - BESIDE_MM, layout.lateral.inside[0] + BESIDE_MM, z])]
+        return way
     if len(way) == 1:
         return way
     place = layout.fittings.left_mm if plate_of(layout, part) == "left" else layout.fittings.right_mm
@@ -136,10 +144,13 @@ def outer_way(layout: Layout, part: str) -> list[Array]:
 def corners(layout: Layout, one: str, other: str, start: Array, end: Array) -> list[Array]:
     """Return the corners (3,) between two points inside.
 
-    At a plate a lead runs along it at the height of hole or switch, and down beside it; from board to board it crosses
-    in the gap between them.
+    At a plate a lead runs along it at the height of hole or switch, and down beside it; to the steering wheel's motor
+    it runs down behind the trays and straight along the plate; from board to board it crosses in the gap between them.
     """
     (x0, y0, z0), (x1, y1, z1) = start, end
+    if other == "steering motor":
+        behind = float(layout.tray_mm[0]) - layout.electronics.length_mm / 2.0 - AHEAD_MM
+        return [np.array([behind, y0, z0]), np.array([behind, y1, z0])]
     if plate_of(layout, one):
         return [np.array([x1, y0, z0]), np.array([x1, y0, z1])]
     if plate_of(layout, other):
