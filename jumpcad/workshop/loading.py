@@ -147,7 +147,7 @@ def _material(path: Path, name: str, own: Any) -> Any:
 
 def _completed(kind: str, tables: dict[str, Any], source: str, text: str) -> dict[str, Any]:
     """Return own parts in which `like` has been replaced by the figures of the shipped part that it names."""
-    shipped: Mapping[str, Article] = getattr(load_catalogue(), kind, {})
+    shipped: Mapping[str, Article] = getattr(load_catalogue(), "steering_motors" if kind == "motors" else kind, {})
     completed = {}
     for name, table in tables.items():
         if isinstance(table, dict) and "like" in table and NAME.fullmatch(name):

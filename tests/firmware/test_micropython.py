@@ -447,7 +447,7 @@ def test_a_wheel_turns_left_and_right_by_time_once_it_is_wound(
     said = capsys.readouterr().out
     assert (bench.left_ms, bench.right_ms) == (pytest.approx(1500.0, abs=4.0), pytest.approx(2000.0, abs=4.0))
     assert "it turns only while it is wound" in said
-    assert "wind, jump, go, stop, state, turn" in said
+    assert "turn takes -180 to 180; there are: wind, jump, go, stop, state, turn" in said
     assert said.count("turned\n") == 2
     assert "jump 1;" in said
     none = Bench({200: "wind", 2000: "turn 30"})

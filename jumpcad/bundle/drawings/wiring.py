@@ -178,4 +178,5 @@ def _lines(net: Net, ends: dict[Terminal, Point], lane: int, stroke: str) -> dic
     bottom = max(y for _, y in ends.values()) + ROW_MM + 4.0 * lane if several else max(y for _, y in starts)
     wires = [[(x, y), (track, y), (track, bottom)] for (x, y), track in zip(starts, tracks, strict=True)]
     along = [(min(tracks), bottom), (max(tracks), bottom)] if several else []
-    return {"name": net.name, "stroke": stroke, "wires": wires, "lane": along}
+    aside = next((one.pin for one in net.terminals if one.part == "gyroscope"), "")  # of a net without a lane
+    return {"name": net.name, "stroke": stroke, "wires": wires, "lane": along, "aside": "" if along else aside}
