@@ -259,7 +259,10 @@ def run():
                 output.say(wheel.said)
                 wheel.said = ""
             if word and word not in COMMANDS:
-                output.say("unknown command; there are: %s" % ", ".join(COMMANDS))
+                asked = word[:-1]  # without the question mark of `split`
+                known = asked in NUMBERED and asked in COMMANDS
+                limits = "%s takes %d to %d; " % ((asked,) + NUMBERED[asked]) if known else ""
+                output.say("unknown command; %sthere are: %s" % (limits, ", ".join(COMMANDS)))
             elif word or winder.said != told:  # each command is answered, also one that does nothing in this state
                 told = winder.said
                 battery = "" if volts is None else "; battery %.2f V" % volts
