@@ -21,9 +21,7 @@ def test_studies_compare_and_export(folder, monkeypatch):
     for option, place in (("--export", "u.csv"), ("--plots", "u")):
         assert "--export and --plots are for one study" in refusal("study", "0.db", "1.db", option, place)
     drawn = []
-    monkeypatch.setattr(
-        "jumpcad.search.report.page.plot_study", lambda store, pics, _: drawn.append(pics) or [pics / "a"]
-    )
+    monkeypatch.setattr("jumpcad.search.plot_study", lambda store, pics, _: drawn.append(pics) or [pics / "a"])
     assert data("study", "0.db", "--plots", "pics") == summary | {"pictures": ["pics/a"]}
     assert "pictures" not in summary
     assert drawn == [Path("pics")]
