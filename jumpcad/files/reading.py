@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-import tomli_w
 
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
@@ -135,6 +134,8 @@ def _require_shallow(data: Any, path: Path) -> None:
 
 def to_toml(data: dict[str, Any]) -> str:
     """Return `data` as TOML text; the same data gives the same text."""
+    import tomli_w  # the command line's help writes nothing
+
     return tomli_w.dumps(data)
 
 
