@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files.complaints import shown
 
