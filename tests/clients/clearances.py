@@ -109,6 +109,8 @@ class Bundle:
         unit = way / distance
         eye = ankle + along * unit - across * np.array([-unit[1], unit[0]])  # below the line to the front pivot
         links = {"body": np.eye(4), "main_leg": leg}
+        if "steer" in self.joints:  # a wheel is round: as it stands is as it turns
+            links["wheel"] = self.joints["steer"].copy()
         for name, start in (("front_link", front), ("foot", ankle)):
             below = math.atan2(-(eye - start)[1], (eye - start)[0])
             links[name] = _turn(below)
