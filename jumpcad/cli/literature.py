@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, console, print_json, print_text, status, table
 from jumpcad.cli.searching import PlotsOption, require_pictures
 from jumpcad.cli.subjects import SeedOption, Texts, option
 from jumpcad.errors import JumpcadError
@@ -94,10 +94,8 @@ def validate(
         robots = compare(entered, seed)
     if plots:
         save_figure(validation(robots), plots, *PICTURES, force)
-    if as_json:
-        print_json({"seed": seed, "entered": entered, "robots": robots})
-    else:
-        print_text("validate", tiers=TIERS, robots=robots)
+    data = {"seed": seed, "entered": entered, "robots": robots}
+    answer(as_json, data, print_text, "validate", tiers=TIERS, robots=robots)
 
 
 def _entered(text: str) -> tuple[str, float]:

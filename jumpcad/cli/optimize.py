@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import jumpcad
 from jumpcad import search
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
 from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, watching, with_options
@@ -18,7 +19,6 @@ from jumpcad.findings import Finding, errors
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
-    from jumpcad.design import Design
     from jumpcad.search.study.evaluator import Watch
 
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
@@ -117,7 +117,7 @@ def optimize(
         raise typer.Exit(1)
 
 
-def _before(result: "search.Result", robot: "search.RobotModel", centre: "Design | None") -> dict[str, float]:
+def _before(result: "search.Result", robot: "search.RobotModel", centre: "jumpcad.Design | None") -> dict[str, float]:
     """Return the figures of the printed robot that the search began with, whose winner may need stronger springs."""
     if centre is None or result.winner is None or robot.name != "printed":
         return {}
