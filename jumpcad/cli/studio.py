@@ -10,7 +10,7 @@ import jumpcad
 from jumpcad.cli.subjects import WorkshopOption, argument, bundle_of, design_file, option
 from jumpcad.errors import JumpcadError
 from jumpcad.files import template_names
-from jumpcad.process import collect_usually
+from jumpcad.process import collect_seldom
 
 if TYPE_CHECKING:
     from jumpcad.studio.points import Points
@@ -44,7 +44,7 @@ def studio(
     shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
     print(f"{server.address}  (Ctrl-C ends the studio; the browser needs WebGL)")
-    collect_usually()
+    collect_seldom(False)
     try:
         server.sleep_forever()
     finally:

@@ -91,6 +91,9 @@ class Workshop(Record):
     def stop_pad(self) -> parts.Pad:
         return self.catalogue.pads[self.body.stop_pad]
 
+    def __hash__(self) -> int:
+        return hash(self.printer)  # tables by name have none
+
     def __repr__(self) -> str:
         materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())
         return f"<Workshop: {self.printer.name[:60]}, layers of {self.process.layer_height_mm:g} mm, {materials}>"
