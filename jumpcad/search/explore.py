@@ -159,7 +159,9 @@ def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) 
             plain = _r_squared(surrogate, x[~known], y[~known])
             scores.append(plain)
             for _ in range(REPEATS):
-                shuffled = [_shuffled(x[~known], column, generator) for column in range(x.shape[1])]
+                shuffled = np.repeat(x[None, ~known], x.shape[1], axis=0)
+                for column, points in enumerate(shuffled):
+                    points[:, column] = generator.permutation(points[:, column])
                 falls.append([plain - _r_squared(surrogate, points, y[~known]) for points in shuffled])
     if not scores:
         raise JumpcadError(
@@ -210,9 +212,3 @@ def _r_squared(surrogate: Surrogate, x: Array, y: Array) -> float:
     """Return the share of the variance of y (n,) that predictions at x (n, d) explain."""
     error = y - surrogate.predict(x)[0]
     return 1.0 - float(np.sum(error**2) / np.sum((y - y.mean()) ** 2))
-
-
-def _shuffled(x: Array, column: int, generator: np.random.Generator) -> Array:
-    shuffled = x.copy()
-    shuffled[:, column] = generator.permutation(shuffled[:, column])
-    return shuffled

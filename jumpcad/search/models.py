@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -22,6 +22,7 @@ from jumpcad.findings import errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.mechanism.variants import capsule_robot
+from jumpcad.process import T
 from jumpcad.search.estimate import estimated_robot as estimated
 from jumpcad.search.study.code_hash import code_digest, versions
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
@@ -75,12 +76,14 @@ class RobotModel:
 
     def __call__(self, design: Design) -> Evaluation:
         """Evaluate a design; one that cannot be built is a verdict, not an error."""
+        return self._unless_refused(design, self._evaluated)
+
+    def _unless_refused(self, design: Design, found: Callable[[Design], T]) -> T | Evaluation:
         findings = tuple(geometry_findings(design))
-        rejecting = errors(findings)
-        if rejecting:
+        if rejecting := errors(findings):
             return Evaluation(rejecting[0].name, findings=findings)
         try:
-            return self._evaluated(design)
+            return found(design)
         except CannotBuildError as error:
             return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
 
@@ -273,13 +276,13 @@ class PrintedModel(RobotModel):
 
         A sixth of an evaluation. What is refused here would be refused by the evaluation too.
         """
-        if rejecting := errors(findings := geometry_findings(variant.design)):
-            return Evaluation(rejecting[0].name, findings=tuple(findings))
-        try:
+
+        def figures(design: Design) -> Mapping[str, float]:
             model = self.varied(variant.workshop) if variant.workshop else self
-            return estimated.layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
-        except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
+            return estimated.layout_figures(layout_of(design, model.workshop or load_workshop()))
+
+        try:
+            return self._unless_refused(variant.design, figures)
         except JumpcadError as error:  # the values of the workshop do not go together
             return Evaluation("workshop", detail=str(error))
 
@@ -330,9 +333,11 @@ def robot_model(
     """
     if engine is not None:
         require_engine(engine)
-    uses = {"capsule": ("settings",), "published": ()}.get(name, ("workshop", "settings"))
-    for option, value in (("workshop", workshop), ("settings", settings)):
-        if value is not None and option not in uses:
+    for option, value, without in (
+        ("workshop", workshop, ("capsule", "published")),
+        ("settings", settings, ("published",)),
+    ):
+        if value is not None and name in without:
             named = "" if isinstance(value, Record) else f" {value}"
             raise JumpcadError(f"{option}{named}: does not apply to the {name} robot; leave it out")
     if name == "published" and engine not in (None, "pybullet"):

@@ -70,7 +70,9 @@ class Screen:
             near = [built[index] for index in np.argsort(distance, kind="stable")[:BESIDE]]
             pairs = [(self._place(one.variant, one.evaluation.metrics), self._log_ratio(one)) for one in near]
             known = [(place, ratio) for place, ratio in pairs if ratio is not None]
-            self._ratios = None if len(known) < PAIRS else _ratios(*map(np.array, zip(*known, strict=True)))
+            places, ratios = (np.array([one[column] for one in known]) for column in (0, 1))
+            theta = [0.0, *[math.log(LENGTH)] * places.shape[-1], math.log(NOISE)]
+            self._ratios = None if len(known) < PAIRS else Surrogate(places, ratios, theta)
 
     def outcomes(self, variants: Iterable[Variant], best: float) -> dict[Key, Evaluation]:
         """Return the outcomes of the variants of a generation that need not be built.
@@ -116,8 +118,3 @@ class Screen:
         if estimate is None or min(trial.score or 0.0, estimate.score or 0.0) <= 0.0:
             return None
         return math.log((trial.score or 0.0) / (estimate.score or 0.0))
-
-
-def _ratios(places: Array, ratios: Array) -> Surrogate:
-    theta = [0.0, *[math.log(LENGTH)] * places.shape[1], math.log(NOISE)]
-    return Surrogate(places, ratios, theta)
