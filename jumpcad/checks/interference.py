@@ -226,7 +226,7 @@ def _pose_within(piece: Piece, layout: Layout, position: Position, T_frame_body:
 def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float]:
     """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn oppositely."""
     stages = layout.drive.train.stages
-    if name in ("cam", "cam_gear"):
+    if name in COUPLED:
         return layout.cam_axis_mm, cam_rad
     idler = -cam_rad * stages[-1].ratio
     if name == "idler" and layout.idler_mm is not None:
@@ -236,7 +236,7 @@ def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float
 
 def box_of(piece: Piece, pose: Array) -> Array:
     """Return lower and upper corner (2, 3) of a placed piece's bounding box."""
-    corners = (piece.corners @ pose.T)[:, :3]
+    corners = np.einsum("ij,nj->ni", pose, piece.corners)[:, :3]
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 

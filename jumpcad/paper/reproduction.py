@@ -98,10 +98,9 @@ class Reproduction:
 
 def reproduce() -> list[Reproduction]:
     """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown."""
+    designs = [(result, load_design(result.template)) for result in PUBLISHED_RESULTS]
     settings = Settings(flight="simulated")
-    rows = []
-    for result in PUBLISHED_RESULTS:
-        design = load_design(result.template)
-        jump = simulate(capsule_robot(design), settings)
-        rows.append(Reproduction(result, published.simulate(design), jump))
-    return rows
+    return [
+        Reproduction(result, published.simulate(design), simulate(capsule_robot(design), settings))
+        for result, design in designs
+    ]

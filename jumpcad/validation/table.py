@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -68,16 +69,12 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
     tables: list[tuple[str, str, Table]] = [
         ("kovac-2008", "mechanism", lambda robot, _: _mechanism(robot, members)),
         ("kovac-2008", "flight", _through_air),
-        ("msu-2013", "flight", _range_from_height),
-        ("seu-2012", "flight", _range_from_height),
+        *((key, "flight", _range_from_height) for key in ("msu-2013", "seu-2012")),
         ("flea-2013", "flight", _flea),
         ("strider-2015", "flight", _strider),
-        ("kenan-1.0", "whole robot", lambda _, generator: _whole("kenan-1.0", generator)),
-        ("kenan-2.0", "whole robot", lambda _, generator: _whole("kenan-2.0", generator)),
-        ("kovac-2009", "bound", lambda robot, _: _bound(robot, epfl, members)),
-        ("kovac-2010", "bound", lambda robot, _: _bound(robot, epfl, members)),
-        ("flea-2013", "efficiency", _efficiency),
-        ("clover-2022", "efficiency", _efficiency),
+        *((key, "whole robot", partial(_whole, key)) for key in ("kenan-1.0", "kenan-2.0")),
+        *((key, "bound", lambda robot, _: _bound(robot, epfl, members)) for key in ("kovac-2009", "kovac-2010")),
+        *((key, "efficiency", _efficiency) for key in ("flea-2013", "clover-2022")),
         *((key, "left out", lambda *_: ()) for key, robot in facts.robots.items() if robot.reason),
     ]
     found: list[dict[str, Any]] = []
@@ -185,7 +182,7 @@ def _strider(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]
     yield _bounded(_compared("height_m", robot.figures["height_m"], rises, None, "flight from the speed, without air"))
 
 
-def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
+def _whole(name: str, _: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
     """Yield distance and height of a printed robot under every reading, over the priors of a calibration."""
     subject = load_subject(name)
     model = CalibrationModel([subject])
@@ -202,8 +199,7 @@ def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
 
 def _efficiency(robot: RobotFacts, _: np.random.Generator) -> list[Row]:
     """Return the measured efficiency, beside which nothing is computed."""
-    figure = robot.figures["efficiency"]
-    return [Row("efficiency", figure.value, figure.confidence, figure.source)]
+    return [_compared("efficiency", robot.figures["efficiency"], (), None, "")]
 
 
 def _flights(

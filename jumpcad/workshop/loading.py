@@ -51,7 +51,10 @@ def load_workshop(
     JumpcadError
         If a file is missing, or a key is unknown, out of range, or contradicts another.
     """
-    path = find_template("workshops", _not_a_printer(name_or_path))
+    for kind, word in (("printers", "printer"), ("materials", "material")):
+        if (name := str(name_or_path)).lower() in template_names(kind):
+            raise JumpcadError(f"{name} is a {word}, not a workshop: say --{word} {name}, alone or with a workshop")
+    path = find_template("workshops", name_or_path)
     data, origins = _assembled(path, ())
     if printer is not None:
         origins.insert(0, _printer(printer))
@@ -63,15 +66,6 @@ def load_workshop(
         data["roles"] = dict.fromkeys(Roles.model_fields, name)
         data["materials"] = {name: _material(path, name, own)}
     return Workshop.from_data(data, str(path), origins=origins)
-
-
-def _not_a_printer(name_or_path: str | Path) -> str | Path:
-    """Return the name or path of a workshop; a printer's or a material's name belongs to another option."""
-    name = str(name_or_path)
-    for kind, word in (("printers", "printer"), ("materials", "material")):
-        if name.lower() in template_names(kind):
-            raise JumpcadError(f"{name} is a {word}, not a workshop: say --{word} {name}, alone or with a workshop")
-    return name_or_path
 
 
 def _printer(name_or_path: str) -> Origin:

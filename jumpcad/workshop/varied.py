@@ -52,8 +52,12 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
         for step in path:
             table = table[step]
         table[last] = type(held)(round(value)) if isinstance(held, int) and isinstance(value, float) else value
-    used = sorted(set(data["roles"].values()))
-    data["materials"] = {name: data["materials"].get(name) or _shipped_material(name) for name in used}
+    held, known = data["materials"], template_names("materials")
+    for name in sorted(set(data["roles"].values()) - held.keys()):
+        if str(name).lower() not in known:
+            raise JumpcadError(f"{shown(name)} is no material of this workshop, nor one of {', '.join(known)}")
+        held[name] = read_toml(find_template("materials", str(name).lower()))[0]
+    data["materials"] = {name: held[name] for name in sorted(set(data["roles"].values()))}
     return Workshop(**data)
 
 
@@ -64,13 +68,6 @@ def _require_part(workshop: Workshop, key: str, value: Value) -> None:
         raise JumpcadError(f"{key} = {shown(value)}: {reason}")
     if key == "bought.kit" and value and value not in (kits := workshop.catalogue.kits):
         raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(kits)}{did_you_mean(str(value), kits)}")
-
-
-def _shipped_material(name: Any) -> dict[str, Any]:
-    known = template_names("materials")
-    if str(name).lower() not in known:
-        raise JumpcadError(f"{shown(name)} is no material of this workshop, nor one of {', '.join(known)}")
-    return read_toml(find_template("materials", str(name).lower()))[0]
 
 
 def _varies(key: str, value: Any) -> bool:
