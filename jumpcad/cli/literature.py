@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from jumpcad.paper.reproduction import Hyperparameter, Reproduction
+    from jumpcad.paper.reproduction import Reproduction
 
 
 def reproduce(as_json: JsonFlag = False) -> None:
@@ -26,10 +26,14 @@ def reproduce(as_json: JsonFlag = False) -> None:
         why = reproduction.WHY_THEY_DIFFER
         print_json({"robots": [row.to_dict() for row in rows], "hyperparameters": items, "why_they_differ": why})
         return
-    screen, style = console(highlight=False), {"title_justify": "left", "box": SIMPLE, "pad_edge": True}
+    screen, style = console(highlight=False), dict[str, Any](title_justify="left", box=SIMPLE, pad_edge=True)
     screen.print(_results(rows, style))
     screen.print(reproduction.READING)
-    screen.print(_hyperparameters(reproduction.HYPERPARAMETERS, style))
+    title = "The study's hyperparameter table is not what its results come from"
+    made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
+    for item in reproduction.HYPERPARAMETERS:
+        made.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
+    screen.print(made)
     screen.print("Why the published figures and the evaluator's differ:")
     for reason in reproduction.WHY_THEY_DIFFER:
         screen.print(f"- {reason}")
@@ -52,14 +56,6 @@ def _results(rows: "list[Reproduction]", style: dict[str, Any]) -> "Table":
         made.add_row("", *height, _shown(jump.com_rise_m), "rise")
         made.add_row("", *energy, _shown(jump.spring_energy_j), "stored")
         made.add_row("", "share", "", "", "", _shown(jump.takeoff_energy_ratio), "take-off", end_section=True)
-    return made
-
-
-def _hyperparameters(items: "tuple[Hyperparameter, ...]", style: dict[str, Any]) -> "Table":
-    title = "The study's hyperparameter table is not what its results come from"
-    made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
-    for item in items:
-        made.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
     return made
 
 
