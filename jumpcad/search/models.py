@@ -63,6 +63,8 @@ class RobotModel:
     """What is searched for unless the user says something else: only a printed robot has a size."""
     packages: ClassVar[Sequence[str]] = ()
     """Packages whose versions decide an evaluation, besides numpy and the engine."""
+    limit_names: ClassVar[Sequence[str]] = ()
+    """Names of the limits of which a search may require margins; `*` stands for the end of several."""
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = field(default_factory=default_engine)
@@ -98,11 +100,6 @@ class RobotModel:
             return Tolerances(LENGTH_MM)
         length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
         return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
-
-    @property
-    def limit_names(self) -> Sequence[str]:
-        """Names of the limits of which a search may require margins; `*` stands for the end of several."""
-        return ()
 
     def requiring(self, asked: Iterable[str] | Required) -> "RobotModel":
         """Return the model whose evaluations are rejected where a requirement is not kept."""
@@ -203,6 +200,7 @@ class PrintedModel(RobotModel):
     figure_names = tuple(FIGURES)
     default_objective = "body_lengths"
     packages = ("manifold3d", "trimesh")
+    limit_names = tuple(name for check in CHECKS if check.cheap for name in check.basis)
 
     def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
         """Evaluate a design, in the workshop with these values; values that do not go together are a verdict."""
@@ -266,10 +264,6 @@ class PrintedModel(RobotModel):
         others = {key: value for key, value in values.items() if not key.startswith(PREFIX)}
         model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
         return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
-
-    @property
-    def limit_names(self) -> Sequence[str]:
-        return [name for check in CHECKS if check.cheap for name in check.basis]
 
     def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of the layout of a printed robot, or the outcome of one whose parts have no room.
