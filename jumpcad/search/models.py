@@ -18,7 +18,7 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES, evaluate_made
 from jumpcad.face import __version__
 from jumpcad.files import Record, did_you_mean
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.mechanism.variants import capsule_robot
@@ -86,8 +86,10 @@ class RobotModel:
             return Evaluation(rejecting[0].name, findings=findings)
         try:
             return found(design)
-        except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
+        except CannotBuildError as error:  # the limit that it missed, if it was a number, is learned
+            why, margin = str(error), error.margin
+            missed = [] if margin is None else [Finding(error.limit, "error", margin, error.unit, why, "")]
+            return Evaluation(CANNOT_BUILD, findings=tuple(missed), detail=why)
 
     def _evaluated(self, design: Design) -> Evaluation:
         """Evaluate a design whose geometry is right."""

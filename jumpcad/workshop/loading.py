@@ -100,7 +100,12 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list
         kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
     }
     if isinstance(data.get("bought"), dict) and data["bought"].get("kit"):
-        data["bought"] = _of_kit(data["bought"]["kit"], str(path), text) | data["bought"]
+        kits, name = load_catalogue().kits, data["bought"]["kit"]
+        if not isinstance(name, str) or name not in kits:
+            hint = did_you_mean(name, kits) if isinstance(name, str) else ""
+            where = place(str(path), text, "bought.kit")
+            raise JumpcadError(f"{where}: bought.kit = {shown(name)}: is none of the kits {', '.join(kits)}{hint}")
+        data["bought"] = kits[name].model_dump() | data["bought"]
     own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
     whole = _merged(whole, data)
     if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
@@ -114,15 +119,6 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list
             )
         whole["materials"] = {name: _material(path, name, whole["materials"].get(name)) for name in sorted(set(used))}
     return whole, origins
-
-
-def _of_kit(name: Any, source: str, text: str) -> dict[str, Any]:
-    kits = load_catalogue().kits
-    if not isinstance(name, str) or name not in kits:
-        hint = did_you_mean(name, kits) if isinstance(name, str) else ""
-        where = place(source, text, "bought.kit")
-        raise JumpcadError(f"{where}: bought.kit = {shown(name)}: is none of the kits {', '.join(kits)}{hint}")
-    return kits[name].model_dump()
 
 
 def _material(path: Path, name: str, own: Any) -> Any:

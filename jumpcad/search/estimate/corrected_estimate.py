@@ -68,8 +68,12 @@ class Screen:
             units = np.array([self._space.to_unit(trial.variant) for trial in built])
             distance = np.abs(units - self._space.to_unit(best.variant)).max(axis=1)
             near = [built[index] for index in np.argsort(distance, kind="stable")[:BESIDE]]
-            pairs = [(self._place(one.variant, one.evaluation.metrics), self._log_ratio(one)) for one in near]
-            known = [(place, ratio) for place, ratio in pairs if ratio is not None]
+            known = []
+            for one in near:
+                estimate = self._estimator(one.variant)
+                if estimate and min(one.score or 0.0, estimate.score or 0.0) > 0.0:
+                    ratio = math.log((one.score or 0.0) / (estimate.score or 0.0))
+                    known.append((self._place(one.variant, one.evaluation.metrics), ratio))
             places, ratios = (np.array([one[column] for one in known]) for column in (0, 1))
             theta = [0.0, *[math.log(LENGTH)] * places.shape[-1], math.log(NOISE)]
             self._ratios = None if len(known) < PAIRS else Surrogate(places, ratios, theta)
@@ -111,10 +115,3 @@ class Screen:
     def _place(self, one: Variant, laid: Mapping[str, float]) -> Array:
         """Return the point (d + k,) of a variant and of its layout, so that what leaps is far away."""
         return np.append(self._space.to_unit(one), of_layout(laid))
-
-    def _log_ratio(self, trial: Trial) -> float | None:
-        """Return the logarithm of a robot's score over its estimate; None where one is none, or not positive."""
-        estimate = self._estimator(trial.variant)
-        if estimate is None or min(trial.score or 0.0, estimate.score or 0.0) <= 0.0:
-            return None
-        return math.log((trial.score or 0.0) / (estimate.score or 0.0))
