@@ -22,7 +22,8 @@ def reproduce(as_json: JsonFlag = False) -> None:
 
     rows = reproduction.reproduce()
     if as_json:
-        items = [asdict(item) for item in reproduction.HYPERPARAMETERS]
+        keys = "name", "in_table", "in_results"
+        items = [dict(zip(keys, (name, *both), strict=True)) for name, both in reproduction.HYPERPARAMETERS.items()]
         why = reproduction.WHY_THEY_DIFFER
         print_json({"robots": [row.to_dict() for row in rows], "hyperparameters": items, "why_they_differ": why})
         return
@@ -31,8 +32,8 @@ def reproduce(as_json: JsonFlag = False) -> None:
     screen.print(reproduction.READING)
     title = "The study's hyperparameter table is not what its results come from"
     made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
-    for item in reproduction.HYPERPARAMETERS:
-        made.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
+    for name, (in_table, in_results) in reproduction.HYPERPARAMETERS.items():
+        made.add_row(name, "–" if in_table is None else f"{in_table:g}", f"{in_results:g}")
     screen.print(made)
     screen.print("Why the published figures and the evaluator's differ:")
     for reason in reproduction.WHY_THEY_DIFFER:
