@@ -91,8 +91,7 @@ def _checked(title: str, given: Mapping[str, Any], hints: Mapping[str, Any]) -> 
 
 def _kinds(hint: Any) -> tuple[Any, ...]:
     """Return the alternatives of an annotation."""
-    joined = isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union
-    return typing.get_args(hint) if joined else (hint,)
+    return typing.get_args(hint) if typing.get_origin(hint) in (types.UnionType, typing.Union) else (hint,)
 
 
 def _items(kind: Any) -> tuple[Any, ...]:

@@ -97,7 +97,8 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     sweeps, start = [], _start(evaluator, around)
     for step, parameter in enumerate(evaluator.space.free):
         values = _grid(parameter, points)
-        trials = _all(evaluator, [_with(start, {parameter: value}) for value in values], "sweep", step)
+        varied = [start.changed({parameter.name: parameter.value(value)}) for value in values]
+        trials = _all(evaluator, varied, "sweep", step)
         sweeps.append(Sweep(parameter.name, values, trials, parameter.names))
     return sweeps
 
@@ -181,12 +182,12 @@ def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: s
             raise JumpcadError(f"{name!r} is not a free parameter; these are {', '.join(parameters)}")
     if x_name == y_name:
         raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
-    x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
-    start = _start(evaluator, around)
-    variants = [_with(start, {parameters[x_name]: u, parameters[y_name]: v}) for v in y for u in x]
+    along, up, start = parameters[x_name], parameters[y_name], _start(evaluator, around)
+    x, y = _grid(along, points), _grid(up, points)
+    variants = [start.changed({x_name: along.value(u), y_name: up.value(v)}) for v in y for u in x]
     trials = _all(evaluator, variants, "sweep", evaluator.space.dimension)
     lines = [trials[j * len(x) : (j + 1) * len(x)] for j in range(len(y))]
-    return FeasibilityMap(x_name, y_name, x, y, lines, parameters[x_name].names, parameters[y_name].names)
+    return FeasibilityMap(x_name, y_name, x, y, lines, along.names, up.names)
 
 
 def _grid(parameter: SearchParameter, points: int) -> Array:
@@ -198,10 +199,6 @@ def _start(evaluator: Evaluator, around: Design) -> Variant:
     space, model = evaluator.space, evaluator.model
     held = {one.name: workshop_value(model.workshop or load_workshop(), one.name) for one in space.of_workshop}
     return Variant(around, held).changed({one.name: one.value(one.lower) for one in space.parameters if not one.free})
-
-
-def _with(start: Variant, values: dict[SearchParameter, float]) -> Variant:
-    return start.changed({parameter.name: parameter.value(value) for parameter, value in values.items()})
 
 
 def _all(evaluator: Evaluator, designs: Sequence[Variant], phase: str, step: int) -> list[Trial]:

@@ -6,7 +6,6 @@ smooth (kriging). An estimate is never a score: what is proposed as the best was
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,18 +34,8 @@ WORTH = 0.0005
 builds a third less, and ends 1 % lower (ten seeds)."""
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """What a variant scores about, at least and at most; no score where it does not jump."""
-
-    score: float | None
-    least: float
-    most: float
-
-    @property
-    def outcome(self) -> Evaluation:
-        """The outcome of what is not built for it, with the estimated score."""
-        return Evaluation(SCREENED, {} if self.score is None else {GUESSED: self.score})
+Bounds = tuple[float | None, float, float]
+"""What a variant scores about, at least and at most; no score where it does not jump."""
 
 
 class Screen:
@@ -89,28 +78,28 @@ class Screen:
                 continue
             rough = self._estimator.rough(one)
             if rough is not None and rough.score is not None and ROUGHLY * rough.score < bar:
-                found[one.key] = Bounds(rough.score, 0.0, ROUGHLY * rough.score).outcome
+                found[one.key] = Evaluation(SCREENED, {GUESSED: rough.score})
                 continue
             laid = self._model.refused_first(one.design) or self._estimator.layout(one)
             estimate = None if isinstance(laid, Evaluation) else self._estimator(one)
             if isinstance(laid, Evaluation):
                 found[one.key] = laid.bare
             elif estimate is not None:
-                bounds = self._bounds(estimate, self._place(one, laid))
-                held.append((one, bounds))
-                bar = max(bar, bounds.least)
-        return found | {one.key: bounds.outcome for one, bounds in held if bounds.most < bar}
+                score, least, most = self._bounds(estimate, self._place(one, laid))
+                held.append((one, {} if score is None else {GUESSED: score}, most))
+                bar = max(bar, least)
+        return found | {one.key: Evaluation(SCREENED, guessed) for one, guessed, most in held if most < bar}
 
     def _bounds(self, estimate: Estimate, place: Array) -> Bounds:
         """Return the bounds of the score at a place; what tips or is too weak by an estimate may stand after all."""
         if estimate.score is None:
-            return Bounds(None, 0.0, math.inf if min(estimate.margins.values(), default=0.0) < 0.0 else 0.0)
+            return None, 0.0, math.inf if min(estimate.margins.values(), default=0.0) < 0.0 else 0.0
         if self._ratios is None:
-            return Bounds(estimate.score, 0.0, math.inf)
+            return estimate.score, 0.0, math.inf
         mean, deviation = self._ratios.predict(place[None])
         score = estimate.score * math.exp(float(mean[0]))
         error = math.exp(CAREFUL * math.hypot(float(deviation[0]), self._ratios.scatter))
-        return Bounds(score, score / error, score * error) if estimate.kept else Bounds(None, 0.0, score * error)
+        return (score, score / error, score * error) if estimate.kept else (None, 0.0, score * error)
 
     def _place(self, one: Variant, laid: Mapping[str, float]) -> Array:
         """Return the point (d + k,) of a variant and of its layout, so that what leaps is far away."""

@@ -140,7 +140,10 @@ def run_steps(
                 loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
-            notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
+            notes: list[dict[str, Any]] = [
+                {"log_improvement": one.log_improvement, "log_feasible": one.log_feasible, "theta": thetas}
+                for one in proposals
+            ]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
             variants = [proposal.variant for proposal in proposals]

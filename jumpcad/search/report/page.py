@@ -110,7 +110,7 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
         # a front ends at its highest score, a ranking starts so
         "first": len(shown) if is_front else 1,
         "candidates": found.candidates if are_candidates else [],
-        "making": Tolerances.of(store.identity).words,
+        "making": Tolerances(**store.identity.get("making") or {"length_mm": 0.0}).words,  # none without a pick
         "names": [figures.named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
         "poses": POSES, "links": LINKS, "edge_mm": EDGE_MM,
     }  # fmt: skip
