@@ -82,14 +82,16 @@ def _checked(title: str, given: Mapping[str, Any], hints: Mapping[str, Any]) -> 
         if isinstance(value, int) and name in RANGES and not RANGES[name][0] <= value <= RANGES[name][1]:
             low, high = RANGES[name]
             raise JumpcadError(f"{title}(): {name} = {shown(value)}: must be at least {low} and at most {high}")
+        known = [one for kind in kinds if typing.get_origin(kind) is typing.Literal for one in typing.get_args(kind)]
+        if known and value not in known:
+            raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
         found[name] = value
     return found
 
 
 def _kinds(hint: Any) -> tuple[Any, ...]:
     """Return the alternatives of an annotation."""
-    joined = isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union
-    return typing.get_args(hint) if joined else (hint,)
+    return typing.get_args(hint) if typing.get_origin(hint) in (types.UnionType, typing.Union) else (hint,)
 
 
 def _items(kind: Any) -> tuple[Any, ...]:

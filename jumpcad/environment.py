@@ -43,6 +43,7 @@ else:
 
 Start = Literal["loaded", "standing", "lying"]
 Control = Literal["switch", "torque"]
+Rendered = Literal["rgb_array", None]
 WAIT, WIND, RELEASE = range(3)
 """Actions of the control `switch`."""
 STAND, LEFT, RIGHT = range(3)
@@ -141,18 +142,11 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
         self, robot: Robot | Design | str | Path = "kenan-2.0", workshop: Workshop | None = None,
         start: Start = "loaded", control: Control = "switch", steps_mm: Sequence[float] = (0.0, 0.0),
         target_m: Sequence[float] = (), obstacles: Sequence[Mapping[str, Any] | Obstacle] = (), made: int = 0,
-        episode_s: float = 20.0, step_s: float = 0.05, render_mode: str | None = None,
+        episode_s: float = 20.0, step_s: float = 0.05, render_mode: Rendered = None,
         picture: Sequence[int] = (320, 240),
     ) -> None:  # fmt: skip
         if gymnasium is None:
             raise JumpcadError('JumpEnv needs Gymnasium: pip install "jumpcad[gym]"')
-        for name, value, known in (
-            ("start", start, get_args(Start)),
-            ("control", control, get_args(Control)),
-            ("render_mode", render_mode, (None, "rgb_array")),
-        ):
-            if value not in known:
-                raise JumpcadError(f"{name} = {value!r}: must be one of {', '.join(map(repr, known))}")
         if len(steps_mm) != 2 or not 0.0 <= steps_mm[0] <= steps_mm[1] <= 1000.0 * STEP_M[1]:
             raise JumpcadError(f"steps_mm = {steps_mm}: must be the least and the largest height, 0 to 500 mm")
         if len(target_m) > 2 or not all(abs(one) <= FARTHEST_M for one in target_m):
@@ -315,20 +309,14 @@ class JumpEnv(Base):  # type: ignore[misc, valid-type, unused-ignore]
     def _observed(self) -> Array:
         arena = self._arena
         ahead, height = self._step_at
+        way = self._target - arena.centre_of_mass_m[:2] if self._target.size else np.zeros(2)
         found = [
             *arena.pose(BODY)[2, :3], *arena.data.qvel[3:6], *arena.velocity_m_s, arena.centre_of_mass_m[2],
             arena.heading_rad, arena.loaded, arena.leg_rad_s, arena.pose(FOOT)[2, 2], float(arena.data.ncon > 0),
-            ahead - arena.centre_of_mass_m[0] if height > 0.0 else 0.0, height, *self._target_seen,
+            ahead - arena.centre_of_mass_m[0] if height > 0.0 else 0.0, height,
+            *(pose_about_z(-arena.heading_rad)[:2, :2] @ way),
         ]  # fmt: skip
         return np.clip(np.array(found, dtype=np.float32), self.observation_space.low, self.observation_space.high)
-
-    @property
-    def _target_seen(self) -> Array:
-        """Where the target lies, ahead and to the left (2,)."""
-        if not self._target.size:
-            return np.zeros(2)
-        way = self._target - self._arena.centre_of_mass_m[:2]
-        return np.asarray(pose_about_z(-self._arena.heading_rad)[:2, :2] @ way)
 
     def _figures(self) -> dict[str, Any]:
         arena = self._arena

@@ -146,17 +146,10 @@ class _Refused(EvaluationResult):
     def _whole(self) -> EvaluationResult:
         return self._build()
 
-    @property
-    def robot(self) -> Robot:
-        return self._whole.robot
-
-    @property
-    def jump(self) -> Jump:
-        return self._whole.jump
-
-    @property
-    def metrics(self) -> dict[str, float]:
-        return self._whole.metrics
+    def __getattr__(self, name: str) -> Any:
+        if name in ("robot", "jump", "metrics"):
+            return getattr(self._whole, name)
+        raise AttributeError(name)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
@@ -224,26 +217,14 @@ def evaluate_made(
 
     The rest is the design's, whose robot is kept: of several made of one design only the first takes time to build.
     """
-    robot, findings = _designed(_BuildKey(design, workshop))
+    robot, findings = _designed(design, workshop)
     jump = simulate(*made(robot, settings or Settings()), engine)
     return EvaluationResult(robot, jump, (*jump.findings, *findings), _metrics(robot, jump))
 
 
-@dataclass(frozen=True)
-class _BuildKey:
-    """What a robot is built from; a workshop has no hash."""
-
-    design: Design
-    workshop: Workshop
-
-    def __hash__(self) -> int:
-        return hash(self.design)
-
-
 @lru_cache(maxsize=1)
-def _designed(order: _BuildKey) -> tuple[Robot, tuple[Finding, ...]]:
-    robot, findings = built_and_checked(order.design.revalidated(), order.workshop.revalidated(), name="")
-    return robot, tuple(findings)
+def _designed(design: Design, workshop: Workshop) -> tuple[Robot, list[Finding]]:
+    return built_and_checked(design.revalidated(), workshop.revalidated(), name="")
 
 
 def _metrics(robot: Robot, jump: Jump) -> dict[str, float]:

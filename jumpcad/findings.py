@@ -178,7 +178,8 @@ def limit(
     For a limit that is not one number against another; see `at_most` and `at_least` for those that are.
     """
     severity: Severity = "info" if margin >= 0 else violated
-    return Finding(name, severity, float(margin), unit, message, ways, _number(value), _number(allowed), grows)
+    found, bound = (None if one is None else float(one) for one in (value, allowed))  # they may be numpy's
+    return Finding(name, severity, float(margin), unit, message, ways, found, bound, grows)
 
 
 def least(findings: Iterable[Finding]) -> dict[str, Finding]:
@@ -193,8 +194,3 @@ def least(findings: Iterable[Finding]) -> dict[str, Finding]:
 def errors(findings: Iterable[Finding]) -> list[Finding]:
     """Return the findings that forbid the robot."""
     return [finding for finding in findings if finding.severity == "error"]
-
-
-def _number(value: float | None) -> float | None:
-    """Return a plain float of what may be one of numpy's."""
-    return None if value is None else float(value)

@@ -8,11 +8,10 @@ import importlib
 import sys
 import tempfile
 import webbrowser
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import Any, cast
 
 from jumpcad.bundle.export import report_page
 from jumpcad.bundle.renders import rest_picture
@@ -56,24 +55,15 @@ def show(robot: Robot) -> Path | None:
         cannot read the system's temporary folder: set TMPDIR to a folder in your home.
     """
     page = report_page(robot)
-    display = _notebook_display()
-    if display is not None:
-        display(ShownPage(page))
+    ipython = sys.modules.get("IPython")  # a notebook has loaded it, and has a kernel, unlike IPython's terminal
+    if getattr(ipython and ipython.get_ipython(), "kernel", None) is not None:
+        importlib.import_module("IPython.display").display(ShownPage(page))
         return None
     with tempfile.NamedTemporaryFile("w", prefix="jumpcad-", suffix=".html", encoding="utf-8", delete=False) as stream:
         stream.write(page)
     path = Path(stream.name)
     webbrowser.open(path.as_uri())
     return path
-
-
-def _notebook_display() -> Callable[[Any], Any] | None:
-    """Return what shows an object below a notebook's cell; None outside, also in IPython's terminal."""
-    ipython = sys.modules.get("IPython")  # a notebook has loaded it
-    shell = None if ipython is None else ipython.get_ipython()
-    if getattr(shell, "kernel", None) is None:
-        return None
-    return cast(Callable[[Any], Any], importlib.import_module("IPython.display").display)
 
 
 def robot_html(robot: Mechanism) -> str:

@@ -57,14 +57,12 @@ def _libraries() -> "ThreadpoolController":
     return ThreadpoolController()
 
 
-def collect_seldom() -> None:
-    """Make this process look seldom: for commands and workers, which end with what they were started for."""
-    gc.set_threshold(*THRESHOLDS)
+def collect_seldom(seldom: bool = True) -> None:
+    """Make this process look seldom: for commands and workers, which end with what they were started for.
 
-
-def collect_usually() -> None:
-    """Make this process look as often as before: for one that stays, whose bundles would take twice the memory."""
-    gc.set_threshold(*USUAL)
+    Else as often as before: for one that stays, whose bundles would take twice the memory.
+    """
+    gc.set_threshold(*(THRESHOLDS if seldom else USUAL))
 
 
 def raise_if_seen() -> None:

@@ -85,19 +85,19 @@ class Remedies:
         """Return a remedy, that with a number first where one is found, and the limits that it cures."""
         ways = () if isinstance(remedy, str) else remedy
         changes = [one for one in ways if isinstance(one, Change) and one.direction is not None]
-        for one in sorted(changes, key=lambda one: not self._is_far(one.key, one.direction or 0)):
+        for one in sorted(changes, key=self._is_inside):
             value = self._cure(one.key, one.direction or 0, (name, margin), wrong)
             if value is not None:
                 others = (other for other in ways if other != one)
                 return (replace(one, value=value), *others), wrong - self._tried[one.key, value][0]
         return remedy, frozenset()
 
-    def _is_far(self, key: str, direction: int) -> bool:
-        """Whether a parameter lies at the end of its usual range, or beyond, from which it is to move: it is first."""
-        if key not in PARAMETERS or not direction:
-            return False
-        bounds, now = SEARCH_BOUNDS[key], getattr(self._design, key)
-        return bool(now <= bounds.lower if direction > 0 else now >= bounds.upper)
+    def _is_inside(self, change: Change) -> bool:
+        """Whether a parameter lies in its usual range: one at an end from which it is to move, or beyond, is first."""
+        if change.key not in PARAMETERS or not change.direction:
+            return True
+        bounds, now = SEARCH_BOUNDS[change.key], getattr(self._design, change.key)
+        return bool(now > bounds.lower if change.direction > 0 else now < bounds.upper)
 
     def _cure(self, key: str, direction: int, fails: tuple[str, float], wrong: frozenset[str]) -> float | None:
         """Return a value of a parameter with which a limit is kept, and all that were kept before.

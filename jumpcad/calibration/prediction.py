@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from jumpcad.arguments import check_arguments
-from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Datum, Predicted, predict
+from jumpcad.calibration.likelihood import STUDENT_T_DEGREES, CalibrationModel, Predicted, predict
 from jumpcad.calibration.posterior import CalibrationPosterior
 from jumpcad.calibration.priors import QUANTILES, WEIGHED_SHARE
 from jumpcad.calibration.subject import Subject
@@ -53,18 +53,16 @@ class Prediction(ByValue):
 
         Calls continue the generator: two calls differ.
         """
-        data = CalibrationModel([self.subject]).data
-        return [self._beside(datum, reading) for datum in data for reading in datum.readings]
-
-    def _beside(self, datum: Datum, reading: str) -> dict[str, Any]:
-        value = self.predicted.of(datum.what, reading)
-        count, drawn = len(value), self.generator
-        noise = drawn.standard_t(STUDENT_T_DEGREES, count) if datum.what == "distance" else drawn.standard_normal(count)
-        seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
-        return {
-            "what": datum.what, "as": reading, "measured": datum.value,
-            "predicted": np.quantile(seen, QUANTILES).tolist(), "below_share": float((seen < datum.value).mean()),
-        }  # fmt: skip
+        rows, drawn = [], self.generator
+        for datum, reading in ((one, of) for one in CalibrationModel([self.subject]).data for of in one.readings):
+            value = self.predicted.of(datum.what, reading)
+            far, count = datum.what == "distance", len(value)
+            noise = drawn.standard_t(STUDENT_T_DEGREES, count) if far else drawn.standard_normal(count)
+            seen = np.nan_to_num(value + noise * self.predicted.deviation(datum, reading, value))
+            predicted, below = np.quantile(seen, QUANTILES).tolist(), float((seen < datum.value).mean())
+            row = {"what": datum.what, "as": reading, "measured": datum.value}
+            rows.append(row | {"predicted": predicted, "below_share": below})
+        return rows
 
 
 @check_arguments

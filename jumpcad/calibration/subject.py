@@ -149,7 +149,13 @@ def load_subject(name_or_path: str | Path) -> Subject:
     name = Path(measured.design).stem
     robot = build(design, workshop, name)
     if measured.mass.parts_g:
-        _require_parts(measured.mass.parts_g, robot, str(path))
+        modelled = {part.name: 1000.0 * part.mass.mass_kg for part in robot.parts}
+        for part, grams in measured.mass.parts_g.items():
+            key = f"mass.parts_g.{part}"
+            if part not in modelled:
+                near, known = did_you_mean(part, modelled), ", ".join(modelled)
+                raise JumpcadError(f"{path}: {key}: no such part{near}; the robot has {known}")
+            _require_unit(str(path), key, grams, modelled[part], "g", "part")
         mass = workshop.mass.model_copy(update={"weighed_g": workshop.mass.weighed_g | measured.mass.parts_g})
         robot = build(design, workshop.model_copy(update={"mass": mass}).revalidated(), name)
     subject = Subject(path.stem, measured, robot, ())
@@ -177,17 +183,6 @@ def _beside(path: Path, name: str) -> str | Path:
     """Return the path of a TOML file relative to the measurements, or a template's name or absolute path as it is."""
     beside = path.parent / name
     return beside if name.endswith(".toml") and not Path(name).is_absolute() else name
-
-
-def _require_parts(parts_g: dict[str, float], robot: Robot, source: str) -> None:
-    """Reject weights of parts that the robot, by its model, does not have, or has with another mass by far."""
-    modelled = {part.name: 1000.0 * part.mass.mass_kg for part in robot.parts}
-    for part, grams in parts_g.items():
-        key = f"mass.parts_g.{part}"
-        if part not in modelled:
-            near, known = did_you_mean(part, modelled), ", ".join(modelled)
-            raise JumpcadError(f"{source}: {key}: no such part{near}; the robot has {known}")
-        _require_unit(source, key, grams, modelled[part], "g", "part")
 
 
 def _require_plausible(subject: Subject, source: str) -> None:

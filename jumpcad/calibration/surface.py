@@ -118,7 +118,10 @@ def surface_of(mechanism: Mechanism, nodes: Nodes = NODES) -> Surface:
         raise JumpcadError(
             "the robot jumps with no energy, friction or floor that a calibration tries: run jumpcad simulate on it"
         )
-    return Surface(mechanism, nodes, _refined(grid, nodes))
+    for axis, (known, count) in enumerate(zip(_axes(nodes), FINE, strict=True), start=1):  # to even points
+        even = np.linspace(known[0], known[-1], count)
+        grid = np.moveaxis(_lines(np.moveaxis(grid, axis, 0), known, even), 0, axis)
+    return Surface(mechanism, nodes, np.ascontiguousarray(grid))
 
 
 def _jump(mechanism: Mechanism, energy: float, pins: float, floor: float) -> Jump:
@@ -136,14 +139,6 @@ def _figures(jump: Jump) -> tuple[float, ...]:
     return jump.ballistic_range_m, jump.com_rise_m, float(forward), float(up)
 
 
-def _refined(grid: Array, nodes: Nodes) -> Array:
-    """Return the grid refined to even points, by monotone cubic interpolation along one axis after the other."""
-    for axis, (known, count) in enumerate(zip(_axes(nodes), FINE, strict=True), start=1):
-        even = np.linspace(known[0], known[-1], count)
-        grid = np.moveaxis(_lines(np.moveaxis(grid, axis, 0), known, even), 0, axis)
-    return np.ascontiguousarray(grid)
-
-
 def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
     """Return the nodes along each axis, of energy as logarithms."""
     energy, pins, floors = nodes
@@ -151,7 +146,7 @@ def _axes(nodes: Nodes) -> tuple[Array, Array, Array]:
 
 
 def _lines(values: Array, nodes: Array, even: Array) -> Array:
-    """Return values (k, ...) at nodes (k,) interpolated on even points; NaN outside the nodes at which there is a jump.
+    """Return values (k, ...) at nodes (k,) by monotone cubics on even points; NaN outside the nodes with a jump.
 
     Lines that have a jump at the same nodes are interpolated together.
     """

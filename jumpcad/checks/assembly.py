@@ -12,7 +12,7 @@ from operator import attrgetter
 
 import numpy as np
 
-from jumpcad.checks.interference import Piece, may_share, shared_volume_mm3
+from jumpcad.checks.interference import Piece, box_of, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding, Remedy, choose, higher, lower
 from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.cage.limits import ELSEWHERE
@@ -159,12 +159,12 @@ def _in_the_way(way: Way, mover: Piece, path_mm: Array) -> Blocked | None:
     length = float(np.linalg.norm(path_mm))
     if length == 0.0:
         return None
-    low, high = _extent(mover)
+    low, high = box_of(mover, mover.T_body_part)
     low, high = np.minimum(low, low - path_mm), np.maximum(high, high - path_mm)
     room = _swept(mover, path_mm)
     blocked = []
     for other in way.there:
-        other_low, other_high = _extent(other)
+        other_low, other_high = box_of(other, other.T_body_part)
         apart = bool((low >= other_high).any() or (other_low >= high).any())
         if apart or _passes(way.placed, other.name) or may_share(mover.name, other.name):
             continue
@@ -217,15 +217,9 @@ def _shared(a: Piece, b: Piece) -> float:
     return shared_volume_mm3(a, a.T_body_part, b, b.T_body_part)
 
 
-def _extent(thing: Piece) -> tuple[Array, Array]:
-    """Return lower and upper corner (3,) of a thing's box in the world."""
-    corners = np.einsum("ij,nj->ni", thing.T_body_part, thing.corners)[:, :3]
-    return corners.min(axis=0), corners.max(axis=0)
-
-
 def _depth(thing: Piece, along: Array) -> float:
     """Return how far a thing's box reaches in a direction (3,)."""
-    corners = np.stack(_extent(thing)) * along
+    corners = box_of(thing, thing.T_body_part) * along
     return float(corners.max(axis=0).sum() - corners.min(axis=0).sum())
 
 
@@ -233,8 +227,8 @@ def _reach(mover: Piece, there: list[Piece], along: Array) -> float:
     """Return how far back a part must be to be clear of all present parts."""
     if not there:
         return 0.0
-    front = float((np.stack(_extent(mover)) * along).max(axis=0).sum())
-    rear = min(float((np.stack(_extent(other)) * along).min(axis=0).sum()) for other in there)
+    front = float((box_of(mover, mover.T_body_part) * along).max(axis=0).sum())
+    rear = min(float((box_of(other, other.T_body_part) * along).min(axis=0).sum()) for other in there)
     return max(front - rear, 0.0) + BEYOND_MM
 
 

@@ -8,7 +8,7 @@ import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from manifold3d import Manifold
@@ -132,8 +132,7 @@ def overlaps(robot: Robot) -> Iterator[tuple[str, str, str, float]]:
     worst: dict[tuple[int, int], tuple[float, str]] = {}
     settled: set[tuple[int, int, float]] = set()
     for position in positions(robot):
-        frames = _frames(robot.linkage, position.leg_rad)
-        poses = [_pose_within(piece, layout, position, frames[piece.body]) for piece in pieces]
+        poses = [pose_of(piece, layout, robot.linkage, position) for piece in pieces]
         boxes = [box_of(piece, pose) for piece, pose in zip(pieces, poses, strict=True)]
         for i, j in _near(boxes):
             a, b = pieces[i], pieces[j]
@@ -199,9 +198,15 @@ def _near_other(piece: Piece, T: Array, other: Piece, T_other: Array, cut: bool)
 
 def pose_of(piece: Piece, layout: Layout, linkage: Linkage, position: Position) -> Array:
     """Return the pose (4, 4) of a piece in the body's frame (mm)."""
-    return _pose_within(piece, layout, position, _frames(linkage, position.leg_rad)[piece.body])
+    T_frame_piece: Array = _frames(linkage, position.leg_rad)[piece.body] @ piece.T_body_part
+    if piece.name not in TURNING:
+        return T_frame_piece
+    ahead = position.ahead_rad if piece.name == "cam" else 0.0
+    centre, turn = _train_turn(piece.name, layout, position.cam_rad + ahead)
+    return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_frame_piece
 
 
+@lru_cache(maxsize=8)
 def _frames(linkage: Linkage, leg_rad: float) -> dict[str, Array]:
     """Return the poses (4, 4) of all bodies in the body's frame (mm)."""
     pose = linkage.pose([leg_rad])
@@ -213,20 +218,10 @@ def _frames(linkage: Linkage, leg_rad: float) -> dict[str, Array]:
     }
 
 
-def _pose_within(piece: Piece, layout: Layout, position: Position, T_frame_body: Array) -> Array:
-    """Return the pose (4, 4) of a piece in a frame in which its body has a pose (mm)."""
-    T_frame_piece: Array = T_frame_body @ piece.T_body_part
-    if piece.name not in TURNING:
-        return T_frame_piece
-    ahead = position.ahead_rad if piece.name == "cam" else 0.0
-    centre, turn = _train_turn(piece.name, layout, position.cam_rad + ahead)
-    return pose_about_y(turn, centre) @ pose_about_y(0.0, -centre) @ T_frame_piece
-
-
 def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float]:
     """Return a turning piece's axis (2,) and its turn about +y at a cam angle; meshing wheels turn oppositely."""
     stages = layout.drive.train.stages
-    if name in ("cam", "cam_gear"):
+    if name in COUPLED:
         return layout.cam_axis_mm, cam_rad
     idler = -cam_rad * stages[-1].ratio
     if name == "idler" and layout.idler_mm is not None:
@@ -236,7 +231,7 @@ def _train_turn(name: str, layout: Layout, cam_rad: float) -> tuple[Array, float
 
 def box_of(piece: Piece, pose: Array) -> Array:
     """Return lower and upper corner (2, 3) of a placed piece's bounding box."""
-    corners = (piece.corners @ pose.T)[:, :3]
+    corners = np.einsum("ij,nj->ni", pose, piece.corners)[:, :3]
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 

@@ -11,7 +11,7 @@ from jumpcad import simulation
 from jumpcad.cli import subjects
 from jumpcad.cli.check import jump_in_words, notes
 from jumpcad.cli.going import CourseOption, ToOption, recorded
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table, text_of, wrapped
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, console, status, table, text_of, wrapped
 from jumpcad.dimensions import counted
 from jumpcad.errors import CannotBuildError, JumpcadError, without_controls
 
@@ -65,10 +65,7 @@ def build(
     with status(f"writing {robot.name} …"):
         bundle = export(robot, folder, pictures, step, force, ros2)
     facts = _facts(robot, bundle, printed, capsule)
-    if as_json:
-        print_json(facts)
-    else:
-        _print_facts(facts, parts)
+    answer(as_json, facts, _print_facts, facts, parts)
 
 
 def render(
@@ -103,23 +100,18 @@ def render(
     with status(f"drawing {robot.name} …"):
         files = {f"{name}.png": png for name, png in renders(robot).items()}
     jump = simulation.headline(robot, trajectory=True)
-    if jump.trajectory is not None and (row or to or course):
-        with status(f"drawing the jumps of {robot.name} …"):
-            files[GIF] = motion_gif(robot, viewer_data(robot, jump, recorded(robot, row, to, course)))
-    elif jump.trajectory is not None:
+    if jump.trajectory is not None:
         with status(f"drawing the jump of {robot.name} …"):
-            files[GIF] = jump_gif(robot, jump.trajectory)
+            way = recorded(robot, row, to, course)
+            drawn = motion_gif(robot, viewer_data(robot, jump, way)) if way else jump_gif(robot, jump.trajectory)
+            files[GIF] = drawn
     if bundle:
         change_files(bundle, {f"{PICTURES}/{name}": data for name, data in files.items()}, {}, force)
     else:
         write_files(folder, files, force)
-    if as_json:
-        print_json({"folder": str(folder), "files": sorted(files), "verdict": jump.verdict})
-        return
-    for name in sorted(files):
-        print(without_controls(str(folder / name)))
-    if jump.trajectory is None:
-        print(f"no {GIF}: {jump.verdict}")
+    written = [without_controls(str(folder / name)) for name in sorted(files)]
+    lines = written if GIF in files else [*written, f"no {GIF}: {jump.verdict}"]
+    answer(as_json, {"folder": str(folder), "files": sorted(files), "verdict": jump.verdict}, print, *lines, sep="\n")
 
 
 def verify(
@@ -133,15 +125,13 @@ def verify(
     from jumpcad.bundle.manifest import verify as differences
 
     wrong, added = differences(bundle), unlisted(bundle)
-    if as_json:
-        print_json({"bundle": str(bundle), "differences": wrong, "added": added})
-    else:
-        files = counted(len(open_bundle(bundle).files), "file")
-        whole = f"{without_controls(str(bundle))}: {files}, none changed or missing"
-        lines = [line for line in wrong if not line.endswith(LINE_ENDS)]
-        if others := len(wrong) - len(lines):
-            lines.append(f"{counted(others, 'file')}: {LINE_ENDS}; {KEEP_LINE_ENDS}")
-        print("\n".join([*(lines or [whole]), *(f"{path}: added, not in the manifest" for path in added)]))
+    files = counted(len(open_bundle(bundle).files), "file")
+    lines = [line for line in wrong if not line.endswith(LINE_ENDS)]
+    if others := len(wrong) - len(lines):
+        lines.append(f"{counted(others, 'file')}: {LINE_ENDS}; {KEEP_LINE_ENDS}")
+    lines = lines or [f"{without_controls(str(bundle))}: {files}, none changed or missing"]
+    lines += [f"{path}: added, not in the manifest" for path in added]
+    answer(as_json, {"bundle": str(bundle), "differences": wrong, "added": added}, print, *lines, sep="\n")
     if wrong:
         raise typer.Exit(1)
 

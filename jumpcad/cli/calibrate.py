@@ -1,16 +1,13 @@
 """`jumpcad calibrate`: calibrates springs, pins, release and drive on measured jumps."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 import typer
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, print_text, status
 from jumpcad.cli.searching import PlotsOption, require_pictures
 from jumpcad.cli.subjects import File, SeedOption, option
-
-if TYPE_CHECKING:
-    from jumpcad.calibration import CalibrationPosterior
 
 SETTINGS = Path("my-settings.toml")
 UNITS = {"distance": (1000.0, "mm"), "height": (1000.0, "mm"), "battery": (1.0, "J"), "speed": (1.0, "m/s"),
@@ -40,16 +37,17 @@ def calibrate(
     """Calibrate springs, pins, release and drive on measured jumps, and show what the data do not determine."""
     from jumpcad.calibration import calibrate as run
     from jumpcad.calibration import elsewhere, load_subject, predicted_jump, settings_toml
+    from jumpcad.calibration import plots as pictures
     from jumpcad.calibration.hypotheses import compare_hypotheses
-    from jumpcad.calibration.plots import PICTURES
     from jumpcad.calibration.subject import renamed, require_each_once, require_pairs
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
+    from jumpcad.search import save_figure
 
     require_apart({"--output": output, "--plots": plots}, {f"measurements {name}": name for name in files})
     if output:
         require_target(output, (".toml",), force)
     if plots:
-        require_pictures(plots, PICTURES, force)
+        require_pictures(plots, pictures.PICTURES, force)
     require_each_once([*files, *(predict or ())])
     others = [load_subject(name) for name in predict or ()]
     with status("simulating the robots, sampling the posterior …"):
@@ -59,11 +57,20 @@ def calibrate(
         robots = renamed([*known, *others])  # no robot has the name of another
         require_pairs(robots)
         predictions = [predicted_jump(posterior, other, seed) for other in robots[len(known) :]]
-        document = _document(posterior, seed) | {
+        document = {
+            "robots": [subject.name for subject in known],
+            "parameters": posterior.summaries(),
+            "energy_per_mass": posterior.energies(),
+            "together": [list(pair) for pair in posterior.correlated()],
+            "residuals": posterior.residuals(),
+            "model_error": {
+                one.name: {"median": one.surface.error, "largest": float(one.surface.errors.max())} for one in known
+            },
+            "sampler": {"seed": seed, **{name: getattr(posterior, name) for name in SAMPLER}},
             "predictions": {
                 one.subject.name: {"jumps_share": one.jumps_share, **one.quantiles(), "beside": one.beside()}
                 for one in predictions
-            }
+            },
         }
         if hypotheses:
             document["hypotheses"] = compare_hypotheses(known, seed)
@@ -71,27 +78,6 @@ def calibrate(
         document |= {"settings": str(output), "elsewhere": list(elsewhere(posterior))}
         write_atomically(output, settings_toml(posterior), force)
     if plots:
-        from jumpcad.calibration.plots import measurements, parameters
-        from jumpcad.search.report.figures import save_figure
-
-        drawn = {draw.__name__: draw(posterior) for draw in (parameters, measurements)}
+        drawn = {name: getattr(pictures, name)(posterior) for name in pictures.PICTURES}
         document["pictures"] = [str(save_figure(figure, plots, name, force)) for name, figure in drawn.items()]
-    if as_json:
-        print_json(document)
-    else:
-        print_text("calibrate", **document, units=UNITS)
-
-
-def _document(posterior: "CalibrationPosterior", seed: int) -> dict[str, Any]:
-    return {
-        "robots": [subject.name for subject in posterior.model.subjects],
-        "parameters": posterior.summaries(),
-        "energy_per_mass": posterior.energies(),
-        "together": [list(pair) for pair in posterior.correlated()],
-        "residuals": posterior.residuals(),
-        "model_error": {
-            subject.name: {"median": subject.surface.error, "largest": float(subject.surface.errors.max())}
-            for subject in posterior.model.subjects
-        },
-        "sampler": {"seed": seed, **{name: getattr(posterior, name) for name in SAMPLER}},
-    }
+    answer(as_json, document, print_text, "calibrate", **document, units=UNITS)

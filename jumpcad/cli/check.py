@@ -3,10 +3,11 @@
 import sys
 from collections.abc import Iterator, Sequence
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
+import jumpcad
 from jumpcad import simulation
 from jumpcad.cli import subjects
 from jumpcad.cli.output import JsonFlag, console, print_json, table, wrapped
@@ -14,16 +15,13 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.files import did_you_mean
 from jumpcad.findings import SHOWN_AS, Finding, errors
 
-if TYPE_CHECKING:
-    from jumpcad.robot.robot import Robot
-    from jumpcad.strength.growth import Grown
-
 STYLES = {"error": "bold red", "warning": "yellow", "info": "green"}
 WORDS = {"error": "error", "warning": "warning", "info": "holds"}
 TIGHT = 0.8
 """Use of a limit from which it is shown also without --all."""
 COUNTED = "", "faults", "mm³"
 """Units of counts and of quantities that must be 0: a margin of 0 is not tight."""
+SAID = "verdict", "touchdown_distance_m", "ballistic_range_m", "com_rise_m"
 SMALL = 0.005
 """Margins below this, in the printed unit, are "at the limit" or "just beyond"."""
 NEXT = "Say what each limit costs in range, and a gram of the body: seconds of work."
@@ -43,23 +41,26 @@ def jump_in_words(jump: dict[str, Any], made_m: float | None = None) -> str:
     return f"does not jump ({jump['verdict']}){why}"
 
 
-def warn_of_no_jump(robot: "Robot") -> None:
+def warn_of_no_jump(robot: "jumpcad.Robot") -> None:
     """Print on standard error why a robot does not jump, if so."""
     jump = simulation.headline(robot)
     if jump.verdict != "jump":
         print(f"jumpcad: {robot.name} {jump_in_words(jump.to_dict())}", file=sys.stderr)
 
 
-def notes(robot: "Robot", findings: Sequence[Finding]) -> Iterator[str]:
+def notes(robot: "jumpcad.Robot", findings: Sequence[Finding]) -> Iterator[str]:
     """Yield what became of a robot by itself: sections that grew, and what bought springs do to its stiffness."""
     if asked := [f"strength.{part} = {more:g}" for part, more in robot.workshop.strength if more != 1.0]:
         yield f"{', '.join(asked)}: {_cost(robot)}"
     if robot.grown:
-        yield grown_in_words(robot.grown)
+        most = max((one.use for one in robot.grown if one.use is not None), default=None)
+        load = "" if most is None else f" to carry {most:.1f} times the load of their first sizing"
+        each = (f"{one.what} by {100.0 * (one.factor - 1.0):.0f} % ({one.limit})" for one in robot.grown)
+        yield f"sections grew{load}: {', '.join(each)}"
     yield from (finding.message for finding in findings if finding.is_note)
 
 
-def _cost(robot: "Robot") -> str:
+def _cost(robot: "jumpcad.Robot") -> str:
     """Return what the strength that was asked for costs in mass and distance."""
     from jumpcad.building import build
     from jumpcad.workshop import varied
@@ -70,23 +71,13 @@ def _cost(robot: "Robot") -> str:
     return f"{1000.0 * (robot.mass_kg - before.mass_kg):+.1f} g and {far[0] - far[1]:+.0f} mm of touchdown"
 
 
-def grown_in_words(grown: "Sequence[Grown]") -> str:
-    """Return which sections grew, by how much and for which limit."""
-    most = max((one.use for one in grown if one.use is not None), default=None)
-    load = "" if most is None else f" to carry {most:.1f} times the load of their first sizing"
-    each = ", ".join(f"{one.what} by {100.0 * (one.factor - 1.0):.0f} % ({one.limit})" for one in grown)
-    return f"sections grew{load}: {each}"
-
-
 def check(
     design: subjects.OwnDesignArgument,
     workshop: subjects.WorkshopOption = None,
     printer: subjects.PrinterOption = None,
     material: subjects.MaterialOption = None,
     every: Annotated[bool, typer.Option("--all", help="Show every limit, also those with a large margin.")] = False,
-    explain: Annotated[
-        str, subjects.option("Show one limit alone, with formula and source.", "NAME", "--explain")
-    ] = "",
+    explain: Annotated[str, subjects.option("Show one limit alone, with formula and source.", "NAME")] = "",
     what_next: NextFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -102,15 +93,15 @@ def check(
     from jumpcad.building.bom import bill_of_materials
     from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
     from jumpcad.checks import CHECKS, basis_of
-    from jumpcad.design import load_design
     from jumpcad.remedies import Remedies, next_steps, steps_in_words
-    from jumpcad.workshop import load_workshop, own_workshop
 
     subjects.note_template(design)
     if explain and basis_of(explain) is None:
         hint = did_you_mean(explain, [name for one in CHECKS for name in one.basis])
         raise JumpcadError(f"no check makes a finding {explain!r}{hint}: jumpcad check DESIGN --all lists them")
-    asked, shop = load_design(design), load_workshop(workshop or own_workshop(design), printer, material)
+    asked = jumpcad.load_design(design)
+    workshop = workshop or asked.workshop_name
+    shop = jumpcad.load_workshop(workshop, printer, material)
     remedies = Remedies(asked, shop)
     try:
         robot = build(asked, shop, subjects.name_of(design))
@@ -125,12 +116,11 @@ def check(
         findings = [finding for finding in findings if fnmatchcase(finding.name, explain)]
     if as_json:
         data = [finding.to_dict() | {"use": finding.use} for finding in findings]
-        said = {"verdict": jump.verdict, "touchdown_distance_m": jump.touchdown_distance_m,
-                "ballistic_range_m": jump.ballistic_range_m, "com_rise_m": jump.com_rise_m,
-                "mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}  # fmt: skip
+        said = {name: getattr(jump, name) for name in SAID}
+        said |= {"mass_kg": robot.mass_kg, "limits": count, "grown": [vars(one) for one in robot.grown]}
         if what_next:
             said |= {"next": [vars(one) for one in steps], "within_limits_mm": usual_mm}
-        print_json({"design": design, "workshop": workshop or own_workshop(design), **said, "findings": data})
+        print_json({"design": design, "workshop": workshop, **said, "findings": data})
     elif explain:
         _print_explained(explain, findings)
     else:

@@ -24,7 +24,7 @@ WRONG_REQUEST, BUG = 2, 3
 OUTPUT_CLOSED = 141
 """Exit code that a shell gives a program ended by SIGPIPE (128 + 13)."""
 
-_parser = cache(typer.main.get_command)
+_parser: Any = cache(typer.main.get_command)
 
 COMPLETE = "_JUMPCAD_COMPLETE"
 """Variable by which a shell asks for completions."""
@@ -124,7 +124,11 @@ def _carry_out(arguments: list[str]) -> int:
         if option.startswith("-") and not value:  # else it would be the current folder, or as if not given
             raise JumpcadError(f"{option} '': its value is empty: give one, or leave {option} out")
     try:
-        with _context(command, arguments) as context:
+        try:
+            context = command.make_context("jumpcad", arguments)
+        except SystemExit as end:  # the options of completion end the program themselves
+            return int(end.code or 0)
+        with context:
             command.invoke(context)
     except typer.Exit as end:
         return end.exit_code
@@ -134,11 +138,3 @@ def _carry_out(arguments: list[str]) -> int:
             print_json({"verdict": "cannot_build", "message": str(error)} | (refused if error.limit else {}))
         raise
     return 0
-
-
-def _context(command: Any, arguments: list[str]) -> Any:
-    """Return the context of parsed arguments; the options of completion end the program themselves."""
-    try:
-        return command.make_context("jumpcad", arguments)
-    except SystemExit as end:
-        raise typer.Exit(int(end.code or 0)) from None

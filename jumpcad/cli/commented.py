@@ -23,12 +23,16 @@ def commented_design(design: "jumpcad.Design", origin: str, file: str) -> str:
 
 def commented_workshop(workshop: "jumpcad.Workshop", origin: str) -> str:
     """Return the TOML document of a workshop: the default workshop's file, comments included, with other values."""
+    from jumpcad.catalogue import load_catalogue
+
     shipped, text = read_toml(find_template("workshops", "default"))
     data, printer = workshop.model_dump(mode="json", exclude_none=True), printer_name(workshop)
     changes = {}
     for table in re.findall(r"^\[([\w.]+)\]", text, re.MULTILINE):
         values, there = _at(data, table), _at(shipped, table)
-        values = _beyond_kit(values) if table == "bought" else values
+        if table == "bought" and values["kit"]:  # without what is the kit's
+            kit = load_catalogue().kits[values["kit"]].model_dump(mode="json")
+            values = {key: value for key, value in values.items() if key not in kit or value != kit[key]}
         changes[table] = {
             key: value for key, value in values.items()
             if not isinstance(value, dict) and (key not in there or there[key] != value)
@@ -53,7 +57,7 @@ def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
     table = ""
 
     def added() -> list[str]:
-        return [f"{_written_key(key)} = {_written(value)}" for key, value in left.pop(table, {}).items()]
+        return [_written(key, value) for key, value in left.pop(table, {}).items()]
 
     for line in text.splitlines():
         if head := re.match(r"\s*\[([^\[\]]+)\]", line):
@@ -62,7 +66,7 @@ def changed_toml(text: str, changes: Mapping[str, Mapping[str, Any]]) -> str:
             table = head[1].strip()
         found = LINE.fullmatch(line.strip())
         if found and found["key"] in left.get(table, {}):
-            line = f"{found['key']} = {_written(left[table].pop(found['key']))}{found['comment'] or ''}"
+            line = _written(found["key"], left[table].pop(found["key"])) + (found["comment"] or "")
         lines.append(line)
     lines += added()
     for table in list(left):
@@ -78,14 +82,6 @@ def printer_name(workshop: "jumpcad.Workshop") -> str:
         if Printer(**read_toml(find_template("printers", name))[0]) == workshop.printer:
             return name
     return ""
-
-
-def _beyond_kit(bought: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keys of `[bought]` whose values are not those of its kit."""
-    from jumpcad.catalogue import load_catalogue
-
-    kit = load_catalogue().kits[bought["kit"]].model_dump(mode="json") if bought["kit"] else {}
-    return {key: value for key, value in bought.items() if key not in kit or value != kit[key]}
 
 
 def _others(data: Mapping[str, Any]) -> dict[str, Any]:
@@ -108,15 +104,7 @@ def _at(data: Mapping[str, Any], path: str) -> Mapping[str, Any]:
     return data
 
 
-def _written(value: Any) -> str:
-    """Return a value as TOML, on one line."""
-    import tomli_w
-
-    text = tomli_w.dumps({"x": value}).removeprefix("x = ").strip()
+def _written(key: str, value: Any) -> str:
+    """Return a key and its value as TOML, on one line."""
+    text = to_toml({key: value}).strip()
     return text.replace("[\n    ", "[").replace(",\n]", "]").replace(",\n    ", ", ")
-
-
-def _written_key(key: str) -> str:
-    import tomli_w
-
-    return tomli_w.dumps({key: 0}).split(" = ")[0]

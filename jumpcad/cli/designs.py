@@ -6,9 +6,10 @@ from typing import Annotated
 
 import typer
 
+import jumpcad
 from jumpcad.cli import subjects
 from jumpcad.cli.check import warn_of_no_jump
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, shell_quoted, status
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, shell_quoted, status
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.files import to_toml
 
@@ -33,9 +34,8 @@ def new(
 ) -> None:
     """Write a new design file, copied from a template; with --workshop, --printer or --material a workshop file."""
     from jumpcad.cli.commented import commented_design, commented_workshop
-    from jumpcad.design import load_design
+    from jumpcad.design import DEFAULT, own_workshop
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
-    from jumpcad.workshop import DEFAULT, load_workshop, own_workshop
 
     for_workshop = any(value is not None for value in (workshop, printer, material))
     if for_workshop and template is not None:
@@ -45,19 +45,17 @@ def new(
     name, quoted = without_controls(str(file)), shell_quoted(str(file))
     if for_workshop:
         base = DEFAULT if workshop is None else workshop
-        shop = load_workshop(base, printer, material)
+        shop = jumpcad.load_workshop(base, printer, material)
         text, data = commented_workshop(shop, without_controls(base)), {"workshop": shop.model_dump(exclude_none=True)}
         use = f"check {base if own_workshop(base) == base != DEFAULT else TEMPLATE} --workshop {quoted}"
     else:
         base = TEMPLATE if template is None else template
-        design = load_design(base)
+        design = jumpcad.load_design(base)
         text, data = commented_design(design, without_controls(base), name), {"design": design.model_dump()}
         use = f"simulate {quoted}"
     write_atomically(file, text, force)
-    if as_json:
-        print_json({"file": str(file), **data})
-    else:
-        print(f"{name}: a copy of {without_controls(base)}; try: jumpcad {use}")
+    told = f"{name}: a copy of {without_controls(base)}; try: jumpcad {use}"
+    answer(as_json, {"file": str(file), **data}, print, told)
 
 
 def cage(
@@ -73,18 +71,17 @@ def cage(
     and lands 50 times in MuJoCo, and must stand up. A minute or two.
     """
     from jumpcad.collision.hulls import least_share_on_feet, share_on_feet
-    from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
     from jumpcad.landing.lightest_cage import TRIES, lightest_cage
-    from jumpcad.workshop import load_workshop, own_workshop
 
     if output is not None:
         require_apart({"--output": output}, {"the design": design, "--workshop": workshop})
         require_target(output, (".toml",), force)
     subjects.note_template(design)
-    base = workshop or own_workshop(design)
+    asked = jumpcad.load_design(design)
+    base = workshop or asked.workshop_name
     with status(f"trying cages for {design} …"):
-        robot, landed = lightest_cage(load_design(design), load_workshop(base), TRIES)
+        robot, landed = lightest_cage(asked, jumpcad.load_workshop(base), TRIES)
     sizes, share, least = robot.workshop.cage.model_dump(), share_on_feet(robot), least_share_on_feet(robot)
     drops, landings = landed.drops_righted, landed.share_righted
     found = (
@@ -96,14 +93,11 @@ def cage(
     text = found + to_toml({"base": beside, "cage": sizes})
     if output is not None:
         write_atomically(output, text, force)
-    if as_json:
-        figures = {"share": share, "least_share": least, "drops": drops, "landings": landings}
-        print_json({"design": design, "workshop": base, "mass_kg": robot.mass_kg, **figures, "cage": sizes})
-    elif output is None:
-        print(text, end="")
-    else:
-        use = f"jumpcad check {shell_quoted(design)} --workshop {shell_quoted(str(output))}"
-        print(f"{found}{without_controls(str(output))}: a workshop with this cage; try: {use}")
+    figures = {"share": share, "least_share": least, "drops": drops, "landings": landings}
+    use = f"jumpcad check {shell_quoted(design)} --workshop {shell_quoted(str(output))}"
+    told = f"{found}{without_controls(str(output))}: a workshop with this cage; try: {use}\n" if output else text
+    data = {"design": design, "workshop": base, "mass_kg": robot.mass_kg, **figures, "cage": sizes}
+    answer(as_json, data, print, told, end="")
 
 
 def variants(
@@ -123,7 +117,6 @@ def variants(
     """
     from jumpcad.bundle.atomic_write import require_place
     from jumpcad.bundle.variants import FORMATS, TABLE, export_variants
-    from jumpcad.bundle.variants import variants as made_of
     from jumpcad.files.outputs import require_apart
 
     if kind not in FORMATS:
@@ -134,14 +127,11 @@ def variants(
     subjects.note_template(design)
     with status(f"building {design} …"):
         robot = subjects.printed_robot(design, workshop)
-        made = made_of(robot, count, seed)
+        made = jumpcad.variants(robot, count, seed)
     with status(f"writing {count} variants of {robot.name} …"):
         bundle = export_variants(robot, made, output or Path(f"{robot.name}-variants"), kind, force)
     warn_of_no_jump(robot)
     folder = str(bundle.folder)
-    if as_json:
-        print_json({"folder": folder, "format": kind, "seed": seed, "variants": [one.name for one in made]})
-    else:
-        print(
-            f"{without_controls(folder)}: {made[0].name} to {made[-1].name}, {kind.upper()}; {TABLE} says what differs"
-        )
+    names = [one.name for one in made]
+    told = f"{without_controls(folder)}: {names[0]} to {names[-1]}, {kind.upper()}; {TABLE} says what differs"
+    answer(as_json, {"folder": folder, "format": kind, "seed": seed, "variants": names}, print, told)

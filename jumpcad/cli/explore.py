@@ -10,7 +10,7 @@ import typer
 
 import jumpcad
 from jumpcad import search
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, print_text
 from jumpcad.cli.searching import PlotsOption, SearchOptions, require_plots, watching, with_options
 from jumpcad.cli.subjects import Text, option
 from jumpcad.dimensions import counted, unit_of_key
@@ -56,7 +56,7 @@ def explore(
     for name, value in {"samples": samples, "points": points, "around": around, "over": over}.items():
         if value is not None and view not in USED_BY[name]:
             raise JumpcadError(f"--{name} {value}: does not apply to {view}, only to {' and '.join(USED_BY[name])}")
-    samples, points, over = samples or SAMPLES, points or POINTS, OVER if over is None else over
+    samples, points, over = samples or SAMPLES, points or POINTS, over or OVER
     require_apart({"--study": options.study, "--plots": plots}, {"--around": around, **options.inputs()})
     require_study(options.study)
     require_plots(plots, force)
@@ -64,7 +64,7 @@ def explore(
     space = options.space(robot)
     request = search.Request(space, robot, options.objective, "ga")
     robot, objective = request.model, request.aim
-    centre = jumpcad.load_design(AROUND if around is None else around)
+    centre = jumpcad.load_design(around or AROUND)
     identity = {
         "model": robot.describe(), **objective.describe(), "method": f"explore {view}", "space": space.describe(),
         "around": centre.model_dump(), "seed": options.seed, "versions": robot.versions(),
@@ -87,12 +87,10 @@ def explore(
         data, figures = run(search.Evaluator(request, store, pool, watch=watch))
     if plots is not None:
         data["pictures"] = [str(search.save_figure(draw(), plots, name, force)) for name, draw in figures.items()]
-    if as_json:
-        print_json({"view": view, "model": options.model, "objective": objective.name} | data)
-    else:
-        reasons = Counter(reason for line in data.get("verdicts", ()) for reason in line)
-        words = {"model": options.model, "base": AROUND if around is None else around, "objective": objective.name}
-        print_text("explore", view=view, **data, **words, total=total, counts=reasons.most_common(), counted=counted)
+    data = {"view": view, "model": options.model, "objective": objective.name} | data
+    reasons = Counter(reason for line in data.get("verdicts", ()) for reason in line)
+    words = {"base": around or AROUND, "total": total, "counts": reasons.most_common(), "counted": counted}
+    answer(as_json, data, print_text, "explore", **data, **words)
 
 
 Found = tuple[dict[str, Any], dict[str, Callable[[], Any]]]

@@ -4,15 +4,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-from jumpcad.cli.output import print_json, print_text, status
+import jumpcad
+from jumpcad.cli.output import answer, print_text, status
 from jumpcad.cli.subjects import File, Text, option
 from jumpcad.errors import JumpcadError
 
 if TYPE_CHECKING:
     from jumpcad.landing.course import Course, Trip
     from jumpcad.landing.series import Series
-    from jumpcad.robot.robot import Robot
-    from jumpcad.settings import Settings
 
 TO = "Steer to a point, x ahead and y to the left (m); one number: so far, in any direction (MuJoCo)."
 COURSE = "Steer along the points of a TOML file, over bars and steps (MuJoCo)."
@@ -39,22 +38,19 @@ def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...]
     return found if len(found) == 2 else abs(found[0])
 
 
-def recorded(robot: "Robot", row: int | None, to: str | None, course: Path | None) -> "Series | Trip | None":
+def recorded(robot: "jumpcad.Robot", row: int | None, to: str | None, course: Path | None) -> "Series | Trip | None":
     """Return so many jumps in a row, or one try of a course, with their motion; None if neither is asked for."""
-    from jumpcad.landing.course import go
-    from jumpcad.landing.series import jumps
-
     target = target_of(to, course)
     if target is None:
-        return jumps(robot, row, record=True) if row else None
+        return jumpcad.jumps(robot, row, record=True) if row else None
     if row:
         raise JumpcadError(f"--jumps {row} excludes --to and --course: leave one out")
-    return go(robot, target, 1, record=True).trips[0]
+    return jumpcad.go(robot, target, 1, record=True).trips[0]
 
 
 def tries_of(
-    robot: "Robot", to: "float | tuple[float, ...] | Course", tries: int, seed: int, settings: "Settings",
-    noise_deg: float, record: bool,
+    robot: "jumpcad.Robot", to: "float | tuple[float, ...] | Course", tries: int, seed: int,
+    settings: "jumpcad.Settings", noise_deg: float, record: bool,
 ) -> "tuple[list[Trip], bool]":  # fmt: skip
     """Return the tries, and whether all were made: an interrupt ends them."""
     from jumpcad.landing.course import trips
@@ -72,15 +68,12 @@ def tries_of(
 
 
 def print_going(
-    robot: "Robot", to: "float | tuple[float, ...] | Course", found: "list[Trip]", heading: Mapping[str, Any],
-    noise_deg: float, as_json: bool,
+    to: "float | tuple[float, ...] | Course", found: "list[Trip]", heading: Mapping[str, Any], noise_deg: float,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Print the rows of the first try, and what became of all."""
     from jumpcad.landing.course import Going, course_of
 
     going = Going(course_of(to), tuple(found))
-    if as_json:
-        print_json({**heading, "going": going.to_dict()})
-        return
-    anywhere = isinstance(to, float)
-    print_text("going", design=heading["design"], going=going, first=found[0], noise=noise_deg, anywhere=anywhere)
+    words = {"going": going, "first": found[0], "noise": noise_deg, "anywhere": isinstance(to, float)}
+    answer(as_json, {**heading, "going": going.to_dict()}, print_text, "going", design=heading["design"], **words)

@@ -1,6 +1,6 @@
 """`jumpcad list`: what ships with jumpcad and can be named on the command line or in a workshop."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from itertools import takewhile
 from typing import Annotated, Any
 
@@ -67,10 +67,9 @@ def described(kind: str) -> dict[str, str]:
     if kind in FOLDERS:
         files = {name: find_template(FOLDERS[kind], name) for name in template_names(FOLDERS[kind])}
         return {name: _first_sentence(file.read_text(encoding="utf-8")) for name, file in files.items()}
-    if kind == "printers":
-        return {name: _printer(read_toml(find_template(kind, name))[0]) for name in template_names(kind)}
-    if kind == "materials":
-        return {name.upper(): _material(read_toml(find_template(kind, name))[0]) for name in template_names(kind)}
+    if kind in ("printers", "materials"):
+        tables = {name: read_toml(find_template(kind, name))[0] for name in template_names(kind)}
+        return {name if kind == "printers" else name.upper(): IN_WORDS[kind](one) for name, one in tables.items()}
     if kind == "engines":
         from jumpcad.simulation.engines import ENGINES, is_installed
 
@@ -91,6 +90,10 @@ def described(kind: str) -> dict[str, str]:
 
 
 IN_WORDS: dict[str, Callable[[Any], str]] = {
+    "printers": lambda one: (
+        f"{one['name']}: bed {' x '.join(f'{side:g}' for side in one['bed_mm'])} mm, nozzle {one['nozzle_mm']:g} mm"
+    ),
+    "materials": lambda one: _material(one),
     "kits": lambda one: f"{', '.join(one.motors)}; {one.battery}; {one.controller}; {one.driver}",
     "motors": lambda one: (
         f"{one.ratio:g}:1, {one.voltage_v:g} V, {one.no_load_rpm:g}/min, "
@@ -105,7 +108,7 @@ IN_WORDS: dict[str, Callable[[Any], str]] = {
         f"{one.rate_nmm_per_deg:g} N·mm/°"
     ),
 }
-"""Main figures of bought parts, of those kinds whose description does not say them."""
+"""Main figures of what is listed, of those kinds whose description does not say them."""
 
 
 def _first_sentence(text: str) -> str:
@@ -114,12 +117,7 @@ def _first_sentence(text: str) -> str:
     return " ".join(line[1:].strip() for line in lines).split(". ")[0].removesuffix(".")
 
 
-def _printer(data: Mapping[str, Any]) -> str:
-    bed = " x ".join(f"{side:g}" for side in data["bed_mm"])
-    return f"{data['name']}: bed {bed} mm, nozzle {data['nozzle_mm']:g} mm"
-
-
-def _material(data: Mapping[str, Any]) -> str:
+def _material(data: dict[str, Any]) -> str:
     strength = data.get("strength_in_plane_mpa")
     bears = f"{strength:g} MPa along its layers" if strength else "strengths to be entered in the workshop"
     return f"{data['density_g_cm3']:g} g/cm³, {bears}"

@@ -3,7 +3,7 @@
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, console, print_json, print_text, status, table
 from jumpcad.cli.searching import PlotsOption, require_pictures
 from jumpcad.cli.subjects import SeedOption, Texts, option
 from jumpcad.errors import JumpcadError
@@ -11,7 +11,7 @@ from jumpcad.errors import JumpcadError
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from jumpcad.paper.reproduction import Hyperparameter, Reproduction
+    from jumpcad.paper.reproduction import Reproduction
 
 
 def reproduce(as_json: JsonFlag = False) -> None:
@@ -22,14 +22,19 @@ def reproduce(as_json: JsonFlag = False) -> None:
 
     rows = reproduction.reproduce()
     if as_json:
-        items = [asdict(item) for item in reproduction.HYPERPARAMETERS]
+        keys = "name", "in_table", "in_results"
+        items = [dict(zip(keys, (name, *both), strict=True)) for name, both in reproduction.HYPERPARAMETERS.items()]
         why = reproduction.WHY_THEY_DIFFER
         print_json({"robots": [row.to_dict() for row in rows], "hyperparameters": items, "why_they_differ": why})
         return
-    screen, style = console(highlight=False), {"title_justify": "left", "box": SIMPLE, "pad_edge": True}
+    screen, style = console(highlight=False), dict[str, Any](title_justify="left", box=SIMPLE, pad_edge=True)
     screen.print(_results(rows, style))
     screen.print(reproduction.READING)
-    screen.print(_hyperparameters(reproduction.HYPERPARAMETERS, style))
+    title = "The study's hyperparameter table is not what its results come from"
+    made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
+    for name, (in_table, in_results) in reproduction.HYPERPARAMETERS.items():
+        made.add_row(name, "–" if in_table is None else f"{in_table:g}", f"{in_results:g}")
+    screen.print(made)
     screen.print("Why the published figures and the evaluator's differ:")
     for reason in reproduction.WHY_THEY_DIFFER:
         screen.print(f"- {reason}")
@@ -52,14 +57,6 @@ def _results(rows: "list[Reproduction]", style: dict[str, Any]) -> "Table":
         made.add_row("", *height, _shown(jump.com_rise_m), "rise")
         made.add_row("", *energy, _shown(jump.spring_energy_j), "stored")
         made.add_row("", "share", "", "", "", _shown(jump.takeoff_energy_ratio), "take-off", end_section=True)
-    return made
-
-
-def _hyperparameters(items: "tuple[Hyperparameter, ...]", style: dict[str, Any]) -> "Table":
-    title = "The study's hyperparameter table is not what its results come from"
-    made = table("hyperparameter", ">in its table", ">in its results", title=title, **style)
-    for item in items:
-        made.add_row(item.name, "–" if item.in_table is None else f"{item.in_table:g}", f"{item.in_results:g}")
     return made
 
 
@@ -94,10 +91,8 @@ def validate(
         robots = compare(entered, seed)
     if plots:
         save_figure(validation(robots), plots, *PICTURES, force)
-    if as_json:
-        print_json({"seed": seed, "entered": entered, "robots": robots})
-    else:
-        print_text("validate", tiers=TIERS, robots=robots)
+    data = {"seed": seed, "entered": entered, "robots": robots}
+    answer(as_json, data, print_text, "validate", tiers=TIERS, robots=robots)
 
 
 def _entered(text: str) -> tuple[str, float]:

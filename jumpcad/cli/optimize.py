@@ -1,12 +1,12 @@
 """`jumpcad optimize`: search for the best printable robot."""
 
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import jumpcad
 from jumpcad import search
 from jumpcad.cli.output import ForceFlag, JsonFlag, complain, print_json, print_text, shell_quoted, status
 from jumpcad.cli.searching import OptimizeOptions, PlotsOption, require_plots, watching, with_options
@@ -18,7 +18,6 @@ from jumpcad.findings import Finding, errors
 from jumpcad.search.methods import DEFAULT, EVALUATIONS, LEAST_PICK, METHODS, NAMES, SEQUENCES
 
 if TYPE_CHECKING:
-    from jumpcad.design import Design
     from jumpcad.search.study.evaluator import Watch
 
 _MEANINGS = "; ".join(f"{name}: {method.meaning}" for name, method in METHODS.items())
@@ -90,11 +89,18 @@ def optimize(
     result, path, facts = results[chosen], paths[chosen], seeds_facts(results, paths) if asked else None
     if result.winner is not None:
         result.save(design_file, force)
-    pictures = _plot(path, plots, results if asked else [], force)
+    pictures: list[Path] = []
+    if plots is not None:
+        with search.StudyStore.read(path) as store:
+            pictures += search.plot_study(store, plots, force)
+        if asked:
+            from jumpcad.search.report.page import best_so_far
+
+            pictures.append(search.save_figure(best_so_far(results), plots, "seeds", force))
     violated, before = _violated(result, robot), _before(result, robot, centre)
     if as_json:
         written = None if result.winner is None else str(design_file)
-        data: dict[str, Any] = {"study": str(path), "pictures": pictures, "design_file": written}
+        data: dict[str, Any] = {"study": str(path), "pictures": [*map(str, pictures)], "design_file": written}
         if space.of_workshop:
             data["workshop_file"] = None if result.winner is None else str(workshop_file(design_file))
         if facts:
@@ -117,7 +123,7 @@ def optimize(
         raise typer.Exit(1)
 
 
-def _before(result: "search.Result", robot: "search.RobotModel", centre: "Design | None") -> dict[str, float]:
+def _before(result: "search.Result", robot: "search.RobotModel", centre: "jumpcad.Design | None") -> dict[str, float]:
     """Return the figures of the printed robot that the search began with, whose winner may need stronger springs."""
     if centre is None or result.winner is None or robot.name != "printed":
         return {}
@@ -149,15 +155,3 @@ def _headed(request: "search.Request", path: Path, watch: "Watch") -> "Watch":
         watch(trial, computed)
 
     return headed
-
-
-def _plot(path: Path, folder: Path | None, of_seeds: "Sequence[search.Result]", force: bool) -> list[str]:
-    if folder is None:
-        return []
-    from jumpcad.search.report.page import best_so_far
-
-    with search.StudyStore.read(path) as store:
-        pictures = search.plot_study(store, folder, force)
-    if of_seeds:
-        pictures.append(search.save_figure(best_so_far(of_seeds), folder, "seeds", force))
-    return [str(picture) for picture in pictures]

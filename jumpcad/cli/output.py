@@ -181,6 +181,14 @@ def print_text(name: str, /, **values: Any) -> None:
     print(text_of(name, **values), end="")
 
 
+def answer(as_json: bool, data: Any, tell: Callable[..., object], /, *given: Any, **values: Any) -> None:
+    """Print data as JSON, or call what tells people."""
+    if as_json:
+        print_json(data)
+    else:
+        tell(*given, **values)
+
+
 def print_json(data: Any) -> None:
     """Print one JSON document; NaN and infinities become null."""
     print(json.dumps(_plain(data), indent=2, allow_nan=False))

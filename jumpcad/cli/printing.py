@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import jumpcad
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, print_text, status, table
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, console, print_text, status, table
 from jumpcad.cli.subjects import File, Text, option
 from jumpcad.errors import without_controls
 
@@ -31,14 +31,9 @@ def coupon(
     from jumpcad.files.outputs import require_apart
 
     require_apart({"--output": output}, {"--measured": measured, "--workshop": workshop})
-    if measured is not None:
-        facts = _measured(measured, workshop, output or WORKSHOP, force)
-    else:
-        facts = _written(workshop, output or FOLDER, force)
-    if as_json:
-        print_json(facts)
-    else:
-        print_text("coupon", **facts, base=workshop, measured=measured is not None)
+    of_readings = measured and _measured(measured, workshop, output or WORKSHOP, force)
+    facts = of_readings or _written(workshop, output or FOLDER, force)
+    answer(as_json, facts, print_text, "coupon", **facts, base=workshop, measured=measured is not None)
 
 
 def _written(workshop: str, folder: Path, force: bool) -> dict[str, Any]:
@@ -126,15 +121,7 @@ def slice_command(
         write_atomically(write_masses, found.weighed.to_toml(), force)
     if found.billed:
         write_times(found)
-    if as_json:
-        print_json(slice_facts(bundle, found, write_masses))
-        return
-    _print_sliced(found)
-    if found.billed:
-        print(f"written   the times, into bom.csv and order.md of {without_controls(str(bundle))}")
-    if write_masses is not None:
-        name = without_controls(str(write_masses))
-        print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")
+    answer(as_json, slice_facts(bundle, found, write_masses), _print_sliced, found, bundle, write_masses)
 
 
 def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) -> dict[str, Any]:
@@ -148,7 +135,7 @@ def slice_facts(bundle: Path, found: "SlicedBundle", write_masses: Path | None) 
     }  # fmt: skip
 
 
-def _print_sliced(found: "SlicedBundle") -> None:
+def _print_sliced(found: "SlicedBundle", bundle: Path, write_masses: Path | None) -> None:
     from jumpcad.bundle.guide.markdown import duration
 
     screen = console(width=WIDE)
@@ -172,3 +159,8 @@ def _print_sliced(found: "SlicedBundle") -> None:
         print(f"ignored   {key} = {asked}: the slicer used {used}")
     if not found.ignored:
         print("settings  all taken over")
+    if found.billed:
+        print(f"written   the times, into bom.csv and order.md of {without_controls(str(bundle))}")
+    if write_masses is not None:
+        name = without_controls(str(write_masses))
+        print(f"written   {name}: try jumpcad build DESIGN --workshop {name}")

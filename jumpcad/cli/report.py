@@ -1,24 +1,18 @@
 """`jumpcad report`, `jumpcad compare`: pages on a robot, on a study, on robots side by side."""
 
 import os
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+import jumpcad
 from jumpcad.cli import subjects
 from jumpcad.cli.check import NextFlag, warn_of_no_jump
 from jumpcad.cli.going import CourseOption, ToOption, recorded
-from jumpcad.cli.output import ForceFlag, JsonFlag, console, print_json, status, table
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, console, print_json, status, table
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.findings import errors
-
-if TYPE_CHECKING:
-    from jumpcad.landing.course import Trip
-    from jumpcad.landing.series import Series
-    from jumpcad.robot.robot import Robot
 
 PAGE = "report.html"
 STUDY = ".db"
@@ -46,18 +40,14 @@ def report(
             raise JumpcadError(f"{option}: {subject} is a study, which does not jump; leave it out")
         written = _study_page(Path(subject), output, workshop, force)
     else:
-        series = partial(recorded, row=row, to=to, course=course)
-        written = _robot_page(subject, output, workshop, series, what_next, force)
-    if as_json:
-        print_json({"file": str(written)})
-    else:
-        print(without_controls(str(written)))
+        written = _robot_page(subject, output, workshop, (row, to, course), what_next, force)
+    answer(as_json, {"file": str(written)}, print, without_controls(str(written)))
 
 
 def _study_page(study: Path, output: Path | None, workshop: str | None, force: bool) -> Path:
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
+    from jumpcad.search import StudyStore
     from jumpcad.search.report.page import write_study_page
-    from jumpcad.search.study.store import StudyStore
 
     why = f"{study} is a study, which keeps the workshop of its robots; leave --workshop out"
     subjects.reject_workshop(workshop, why)
@@ -71,7 +61,7 @@ def _study_page(study: Path, output: Path | None, workshop: str | None, force: b
 
 
 def _robot_page(
-    subject: str, output: Path | None, workshop: str | None, series: "Callable[[Robot], Series | Trip | None]",
+    subject: str, output: Path | None, workshop: str | None, way: tuple[int | None, str | None, Path | None],
     what_next: bool, force: bool,
 ) -> Path:  # fmt: skip
     from jumpcad.bundle.atomic_write import change_files, require_unedited
@@ -92,7 +82,7 @@ def _robot_page(
         robot = subjects.printed_robot(subject, workshop)
     with status(f"drawing {robot.name} …"):
         steps = steps_in_words(*next_steps(robot, limits_of(robot))) if what_next else ()
-        text = report_page(robot, bundle.files if bundle else (), series(robot), steps)
+        text = report_page(robot, bundle.files if bundle else (), recorded(robot, *way), steps)
     if bundle:
         change_files(bundle, {PAGE: text}, {}, force)
     else:
@@ -114,16 +104,14 @@ def compare(
     scale. Bundles and trials keep their own workshops. The exit code is 1 if
     one of them cannot be built, or `jumpcad check` of it has 1.
     """
-    from jumpcad.comparison import compare as compare_robots
     from jumpcad.files.outputs import require_apart, require_target, sealed, write_atomically
-    from jumpcad.workshop import load_workshop
 
     require_apart({"--output": output}, {"a robot": robots[0], "--workshop": workshop})
     require_target(output, (".html",), force)
     for one in robots:
         subjects.note_template(one)
     with status(f"comparing {', '.join(robots)} …"):
-        found = compare_robots(robots, load_workshop(workshop) if workshop else None)
+        found = jumpcad.compare(robots, jumpcad.load_workshop(workshop) if workshop else None)
         write_atomically(output, sealed(found.to_html(), "<!-- {} -->"), force)
     if as_json:
         print_json(found.to_dict() | {"page": str(output)})

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
+import jumpcad
 from jumpcad import search
 from jumpcad.cli.output import status
 from jumpcad.cli.subjects import WORKSHOP, File, SeedOption, Text, Texts, option
@@ -55,9 +56,7 @@ class SearchOptions:
 
     def robot_model(self) -> "search.RobotModel":
         """Return the model that the options describe."""
-        from jumpcad.search.models import robot_model
-
-        return robot_model(self.model, self.workshop, self.settings, self.engine)
+        return search.robot_model(self.model, self.workshop, self.settings, self.engine)
 
     def space(self, robot: "search.RobotModel", **others: Any) -> "search.Space":
         """Return the space of a robot's workshop that the options describe."""
@@ -103,10 +102,8 @@ class OptimizeOptions(SearchOptions):
 
     def requests(self, methods: Sequence[str], seeds: Iterable[int], evaluations: int) -> "list[search.Request]":
         """Return what is asked for, with each method and seed."""
-        from jumpcad.design import load_design
-
-        begun = [load_design(one) for one in self.start or ()]
-        centre = None if self.around is None else load_design(self.around)
+        begun = [jumpcad.load_design(one) for one in self.start or ()]
+        centre = None if self.around is None else jumpcad.load_design(self.around)
         only = [] if self.only is None else [name.strip() for name in self.only.split(",")]
         robot = self.robot_model()
         space = self.space(robot, around=centre, only=only, within_percent=self.within, study=PAPER in methods)

@@ -11,68 +11,47 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import jumpcad
+from jumpcad.cli import subjects
 from jumpcad.cli.going import CourseOption, ToOption, print_going, target_of, tries_of
-from jumpcad.cli.output import ForceFlag, JsonFlag, print_json, print_text, status
-from jumpcad.cli.subjects import WorkshopOption, note_template, printed_robot, robot_from_file
+from jumpcad.cli.output import ForceFlag, JsonFlag, answer, print_json, print_text, status
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError, without_controls
 from jumpcad.simulation.engines import ENGINE_HELP, GENERAL, default_engine
 
 if TYPE_CHECKING:
-    from jumpcad.design import Design
     from jumpcad.landing.course import Course
-    from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import Jump, Settings
     from jumpcad.simulation.jump import Trajectory
     from jumpcad.simulation.uncertain import Uncertainty
 
 DEFAULT_SETTINGS = "default"
 TRIES = 20
 """Landings that are tried unless asked for more."""
+DESIGN = "A template, a design file, a bundle, a URDF file, a TOML file with bodies."
+UNCERTAIN = "Also the uncertainty: 10, 50, 90 % quantiles of touchdown and rise, by source."
+LANDING = "How it lands, on what it rests, whether winding rights it (MuJoCo)."
+JUMPS = "Jumps in a row, each from where the last one ended (MuJoCo)."
+NOISE = "How well its heading is known for --to, --course: a standard deviation (°)."
+SEED = "Random seed of --uncertain, --landing, --jumps, --to, --course."
 
 
 def simulate(
-    design: Annotated[
-        str,
-        typer.Argument(
-            help="A template, a design file, a bundle, a URDF file, a TOML file with bodies.", metavar="DESIGN|BUNDLE"
-        ),
-    ],
+    design: Annotated[str, subjects.argument(DESIGN, "DESIGN|BUNDLE")],
     capsule: Annotated[bool, typer.Option("--capsule", help="The published masses instead of printed parts.")] = False,
     published: Annotated[bool, typer.Option("--published", help="The published study's simulation.")] = False,
-    workshop: WorkshopOption = None,
-    engine: Annotated[str | None, typer.Option(help=ENGINE_HELP)] = None,
+    workshop: subjects.WorkshopOption = None,
+    engine: Annotated[subjects.Text, subjects.option(ENGINE_HELP)] = None,
     settings: Annotated[str, typer.Option(help="Settings: a template's name or a TOML file.")] = DEFAULT_SETTINGS,
     flight: Annotated[bool, typer.Option("--flight", help="Simulate the flight up to the first touchdown.")] = False,
-    trajectory: Annotated[Path | None, typer.Option(help="Write poses and energies to FILE.csv or FILE.json.")] = None,
-    uncertain: Annotated[
-        bool,
-        typer.Option(
-            "--uncertain", help="Also the uncertainty: 10, 50, 90 % quantiles of touchdown and rise, by source."
-        ),
-    ] = False,
-    landing: Annotated[
-        bool, typer.Option("--landing", help="How it lands, on what it rests, whether winding rights it (MuJoCo).")
-    ] = False,
-    tries: Annotated[int, typer.Option(help="Of --landing, --to, --course.", min=1, max=10_000)] = TRIES,
-    row: Annotated[
-        int | None,
-        typer.Option("--jumps", help="Jumps in a row, each from where the last one ended (MuJoCo).", min=1, max=1000),
-    ] = None,
+    trajectory: Annotated[subjects.File, subjects.option("Write poses and energies to FILE.csv or FILE.json.")] = None,
+    uncertain: Annotated[bool, subjects.option(UNCERTAIN, None, "--uncertain")] = False,
+    landing: Annotated[bool, subjects.option(LANDING, None, "--landing")] = False,
+    tries: Annotated[int, subjects.option("Of --landing, --to, --course.", min=1, max=10_000)] = TRIES,
+    row: Annotated[int | None, subjects.option(JUMPS, None, "--jumps", min=1, max=1000)] = None,
     to: ToOption = None,
     course: CourseOption = None,
-    heading_noise: Annotated[
-        float | None,
-        typer.Option(
-            help="How well its heading is known for --to, --course: a standard deviation (°).",
-            show_default="3",
-            min=0,
-            max=180,
-        ),
-    ] = None,
-    seed: Annotated[
-        int, typer.Option(help="Random seed of --uncertain, --landing, --jumps, --to, --course.", min=0, max=2**32 - 1)
-    ] = 0,
+    heading_noise: Annotated[float | None, subjects.option(NOISE, shown="3", min=0, max=180)] = None,
+    seed: Annotated[int, subjects.option(SEED, min=0, max=2**32 - 1)] = 0,
     force: ForceFlag = False,
     as_json: JsonFlag = False,
 ) -> None:
@@ -81,14 +60,10 @@ def simulate(
     The exit code is 0 for a jump, and 1 if the design is rejected or does not
     jump.
     """
-    from jumpcad.design import load_design
     from jumpcad.files.outputs import require_apart, require_target
     from jumpcad.mechanism.model import Mechanism
-    from jumpcad.mechanism.variants import capsule_robot
-    from jumpcad.robot.robot import Robot
-    from jumpcad.simulation import load_settings, uncertain_jump
     from jumpcad.simulation import simulate as simulate_jump
-    from jumpcad.simulation.uncertain import uncertainty_of
+    from jumpcad.simulation.uncertain import uncertain_jump, uncertainty_of
 
     target = target_of(to, course)
     asked_for = {"--landing": landing, f"--jumps {row}": row, f"--to {to}": to, f"--course {course}": course}
@@ -123,12 +98,12 @@ def simulate(
     require_apart({"--trajectory": trajectory}, {"the design": design, "--workshop": workshop, "--settings": settings})
     if trajectory:
         require_target(trajectory, (".csv", ".json"), force)
-    note_template(design)
-    written = robot_from_file(design, workshop)
+    subjects.note_template(design)
+    written = subjects.robot_from_file(design, workshop)
     chain = written and not isinstance(written, Mechanism)
     if chain and plain:
         raise JumpcadError(f"{design}: is no five-bar: leave --capsule and --published out")
-    subject: Any = getattr(written, "design", None) if written else load_design(design)
+    subject: Any = getattr(written, "design", None) if written else jumpcad.load_design(design)
     if published:
         _published(subject, {"design": design, "model": "published"}, engine, as_json)
         return
@@ -140,14 +115,15 @@ def simulate(
         option = "--uncertain" if uncertain else landings
         raise JumpcadError(f"{design}: {option} is for printed robots: give the design, or its bundle")
     changes = ({"flight": "simulated"} if flight or chain else {}) | ({"trajectory": True} if trajectory else {})
-    asked = load_settings(settings).model_copy(update=changes)
+    plain_settings = jumpcad.load_settings(settings)
+    asked = plain_settings.model_copy(update=changes)
     written = None if capsule or landed else written
-    robot = capsule_robot(subject) if capsule else written or printed_robot(design, workshop)
+    robot = jumpcad.capsule_robot(subject) if capsule else written or subjects.printed_robot(design, workshop)
     model = "capsule" if capsule else "printed"
     if written:
         model = "chain" if chain else "own bodies" if Path(design).suffix == ".toml" else "URDF"
     heading = {"design": design, "model": model, "settings": settings}
-    if landed and isinstance(robot, Robot):
+    if landed and isinstance(robot, jumpcad.Robot):
         alone_jump = simulate_jump(robot, asked, "mujoco")
         if alone_jump.verdict != "jump":
             _report(heading, [alone_jump], as_json)
@@ -161,8 +137,8 @@ def simulate(
         return
     jumps = [simulate_jump(robot, asked, one) for one in engines]
     made = None
-    if isinstance(robot, Robot) and not written and jumps[0].verdict == "jump":
-        made = uncertainty_of(robot, load_settings(settings))
+    if isinstance(robot, jumpcad.Robot) and not written and jumps[0].verdict == "jump":
+        made = uncertainty_of(robot, plain_settings)
     if trajectory and (path := jumps[0].trajectory):
         _write_trajectory(trajectory, path, force)
     elif trajectory:
@@ -171,67 +147,58 @@ def simulate(
     spread = made if uncertain and not (engine or seed) else None
     if uncertain and not spread:
         with status("simulating samples of the uncertain inputs …"):
-            spread = uncertain_jump(printed_robot(design, workshop), load_settings(settings), engines[0], seed)
+            spread = uncertain_jump(subjects.printed_robot(design, workshop), plain_settings, engines[0], seed)
     _report(heading, jumps, as_json, spread, made)
     if any(jump.verdict != "jump" for jump in jumps):
         raise typer.Exit(1)
 
 
-def _published(design: "Design", heading: dict[str, str], engine: str | None, as_json: bool) -> None:
+def _published(design: "jumpcad.Design", heading: dict[str, str], engine: str | None, as_json: bool) -> None:
     """Print the quantities of the published study, which a `Jump` does not have."""
     if engine not in (None, "pybullet"):
         raise JumpcadError(f"--engine {engine}: the published simulation exists in pybullet alone")
-    from jumpcad.paper import published
-
-    result = asdict(published.simulate(design))
-    if as_json:
-        print_json(heading | result)
-        return
-    print(f"published distance  {result['distance_m']:.6f} m   where the body is at the first contact after 0.5 s")
-    print(f"published height    {result['base_height_m']:.6f} m   the body's height above ground, not its rise")
-    print(f"energy              {result['energy_j']:.6f} J")
+    result = jumpcad.published.simulate(design)
+    told = (
+        f"published distance  {result.distance_m:.6f} m   where the body is at the first contact after 0.5 s\n"
+        f"published height    {result.base_height_m:.6f} m   the body's height above ground, not its rise\n"
+        f"energy              {result.energy_j:.6f} J"
+    )
+    answer(as_json, heading | asdict(result), print, told)
 
 
-def _land(robot: "Robot", heading: dict[str, str], settings: "Settings", tries: int, seed: int, as_json: bool) -> None:
+def _land(
+    robot: "jumpcad.Robot", heading: dict[str, str], settings: "jumpcad.Settings", tries: int, seed: int, as_json: bool
+) -> None:
     """Let a robot land a number of times, and print where it rests, on what, and whether winding rights it."""
     import numpy as np
 
-    from jumpcad.landing.landing import land
-
-    found = land(robot, tries, seed, settings)
-    if as_json:
-        print_json(heading | {"landing": found.to_dict()})
-        return
+    found = jumpcad.land(robot, tries, seed, settings)
     names = {"touches down at": "touchdown_m", "rests at": "rest_m"}
     distances = {
         label: np.quantile([getattr(one, name) for one in found.tries], [0.0, 0.5, 1.0])
         for label, name in names.items()
     }
-    print_text(
-        "landing", design=heading["design"], tries=tries, distances=distances, found=found,
-        stop_mm=robot.workshop.safety.landing_stop_mm,
-    )  # fmt: skip
+    values = {"design": heading["design"], "tries": tries, "distances": distances, "found": found}
+    stop_mm = robot.workshop.safety.landing_stop_mm
+    answer(as_json, heading | {"landing": found.to_dict()}, print_text, "landing", **values, stop_mm=stop_mm)
 
 
 def _jump_on(
-    robot: "Robot", heading: dict[str, str], settings: "Settings", count: int, seed: int, as_json: bool,
-    trajectory: Path | None, force: bool,
+    robot: "jumpcad.Robot", heading: dict[str, str], settings: "jumpcad.Settings", count: int, seed: int,
+    as_json: bool, trajectory: Path | None, force: bool,
 ) -> None:  # fmt: skip
     """Let a robot jump a number of times in a row, print a line each and the sums, and write its way if asked."""
-    from jumpcad.landing.series import jumps
-
-    series = jumps(robot, count, seed, settings, trajectory is not None)
+    series = jumpcad.jumps(robot, count, seed, settings, trajectory is not None)
     if trajectory and series.trajectory:
         _write_trajectory(trajectory, series.trajectory, force)
-    if as_json:
-        print_json(heading | {"series": series.to_dict()})
-    else:
-        print_text("jumps", design=heading["design"], count=count, series=series)
+    values = {"design": heading["design"], "count": count, "series": series}
+    answer(as_json, heading | {"series": series.to_dict()}, print_text, "jumps", **values)
 
 
 def _go(
-    robot: "Robot", heading: dict[str, str], settings: "Settings", to: "float | tuple[float, ...] | Course", tries: int,
-    seed: int, noise_deg: float | None, as_json: bool, trajectory: Path | None, force: bool,
+    robot: "jumpcad.Robot", heading: dict[str, str], settings: "jumpcad.Settings",
+    to: "float | tuple[float, ...] | Course", tries: int, seed: int, noise_deg: float | None, as_json: bool,
+    trajectory: Path | None, force: bool,
 ) -> None:  # fmt: skip
     """Send a robot somewhere a number of times; of an interrupted command, print what was finished.
 
@@ -244,7 +211,7 @@ def _go(
     if found:
         if trajectory and found[0].trajectory:
             _write_trajectory(trajectory, found[0].trajectory, force)
-        print_going(robot, to, found, heading, noise, as_json)
+        print_going(to, found, heading, noise, as_json)
     if not whole:
         raise KeyboardInterrupt
     if not any(one.arrived for one in found):
@@ -252,7 +219,7 @@ def _go(
 
 
 def _report(
-    heading: dict[str, str], jumps: "list[Jump]", as_json: bool, spread: "Uncertainty | None" = None,
+    heading: dict[str, str], jumps: "list[jumpcad.Jump]", as_json: bool, spread: "Uncertainty | None" = None,
     made: "Uncertainty | None" = None,
 ) -> None:  # fmt: skip
     if as_json:
@@ -276,7 +243,7 @@ def _report(
     )  # fmt: skip
 
 
-def _difference_percent(jumps: "list[Jump]") -> float | None:
+def _difference_percent(jumps: "list[jumpcad.Jump]") -> float | None:
     """Return the difference of the second engine's range from the first's (%), if both jump."""
     ranges = [jump.ballistic_range_m for jump in jumps]
     if len(ranges) != 2 or ranges[0] is None or ranges[1] is None:

@@ -6,12 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+import jumpcad
 from jumpcad.cli.subjects import WorkshopOption, argument, bundle_of, design_file, option
 from jumpcad.errors import JumpcadError
-from jumpcad.process import collect_usually
+from jumpcad.files import template_names
+from jumpcad.process import collect_seldom
 
 if TYPE_CHECKING:
-    from jumpcad.design import Design
     from jumpcad.studio.points import Points
 
 PORT = 8080
@@ -29,7 +30,6 @@ def studio(
         from jumpcad.studio.server import OwnServer
     except ImportError:
         raise JumpcadError("the studio needs viser: pip install 'jumpcad[studio]'") from None
-    from jumpcad.files.templates import template_names
     from jumpcad.studio import Studio
 
     is_study = design.endswith(STUDY) and not os.path.isdir(design)
@@ -44,14 +44,14 @@ def studio(
     shown = Studio(opened, name, list(shops), server, Path.cwd(), points, number)
     shown.start()
     print(f"{server.address}  (Ctrl-C ends the studio; the browser needs WebGL)")
-    collect_usually()
+    collect_seldom(False)
     try:
         server.sleep_forever()
     finally:
         shown.end()
 
 
-def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design, str, Points, int]":
+def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[jumpcad.Design, str, Points, int]":
     """Return a trial's design, the name of its workshop in the studio, the study's points and the trial's number."""
     from jumpcad.studio.points import STUDYS, Points
 
@@ -63,14 +63,13 @@ def _point(file: Path, trial: int | None, workshop: str | None) -> "tuple[Design
     return design, STUDYS, points, number
 
 
-def _design(subject: str, workshop: str | None) -> "tuple[Design, str]":
+def _design(subject: str, workshop: str | None) -> "tuple[jumpcad.Design, str]":
     """Return the design of a bundle, a template or a file, and its workshop; raise `JumpcadError` if there is none."""
     from jumpcad.bundle.manifest import WORKSHOP, kept_workshop
-    from jumpcad.design import load_design
-    from jumpcad.workshop import own_workshop
 
     bundle = bundle_of(subject, workshop)
     if bundle is None:
-        return load_design(design_file(subject)), own_workshop(subject)
+        design = jumpcad.load_design(subject)
+        return design, design.workshop_name
     kept_workshop(bundle)  # raises if it names other files
-    return load_design(design_file(subject)), str(bundle.file(WORKSHOP))
+    return jumpcad.load_design(design_file(subject)), str(bundle.file(WORKSHOP))

@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import jumpcad
 from jumpcad.errors import JumpcadError
 from jumpcad.files import find_template, template_names
 
 if TYPE_CHECKING:
-    from jumpcad.bundle.manifest import Bundle
     from jumpcad.mechanism.model import Multibody
-    from jumpcad.robot.robot import Robot
 
 Text = str | None
 Texts = list[str] | None
@@ -64,39 +63,33 @@ def note_template(subject: str) -> None:
         print(f"jumpcad: {subject} is the template; write {folder} for the bundle of this name", file=sys.stderr)
 
 
-def bundle_of(subject: str, workshop: str | None = None) -> "Bundle | None":
+def bundle_of(subject: str, workshop: str | None = None) -> "jumpcad.Bundle | None":
     """Return the bundle that a subject names: a folder, unless it is a template's bare name; else None."""
     from jumpcad.bundle.manifest import open_bundle
 
     if _is_template(subject) or not os.path.isdir(subject):
         return None
     bundle = open_bundle(subject)
-    reject_workshop(
-        workshop,
-        f"{subject} is a bundle, built in a workshop of its own; "
-        f"give {Path(subject, 'design.toml')} to build it in another",
-    )
+    own = f"{subject} is a bundle, built in a workshop of its own"
+    reject_workshop(workshop, f"{own}; give {Path(subject, 'design.toml')} to build it in another")
     return bundle
 
 
 def printed_robot(
     subject: str, workshop: str | None, printer: str | None = None, material: str | None = None
-) -> "Robot":
+) -> "jumpcad.Robot":
     """Return the printed robot of a bundle (built again from its inputs), of a template, or of a design file."""
     from jumpcad.building import build as build_robot
     from jumpcad.bundle.manifest import kept_robot
-    from jumpcad.design import load_design
-    from jumpcad.workshop import load_workshop, own_workshop
 
     if bundle := bundle_of(subject, workshop):
-        for option, value in (("--printer", printer), ("--material", material)):
-            if value is not None:
-                raise JumpcadError(
-                    f"{option} {value}: {subject} is a bundle, built in a workshop of its own; give a design"
-                )
+        for given in (f"--printer {printer}" if printer else "", f"--material {material}" if material else ""):
+            if given:
+                raise JumpcadError(f"{given}: {subject} is a bundle, built in a workshop of its own; give a design")
         return kept_robot(bundle)
-    shop = load_workshop(workshop or own_workshop(subject), printer, material)
-    return build_robot(load_design(subject), shop, name_of(subject))
+    design = jumpcad.load_design(subject)
+    shop = jumpcad.load_workshop(workshop or design.workshop_name, printer, material)
+    return build_robot(design, shop, name_of(subject))
 
 
 def name_of(subject: str) -> str:

@@ -100,9 +100,11 @@ def coupon_pieces(workshop: Workshop) -> list[Piece]:
 
 def coupon_masses(made: Sequence[Piece], workshop: Workshop) -> dict[str, Any]:
     """Return a manifest's entries about the masses of the pieces."""
-    masses = [
-        MassLine("printed", one.name, one.quantity, one.material, _mass_kg(one, workshop), "printed") for one in made
-    ]
+    masses = []
+    for one in made:
+        density = workshop.materials[one.material].density_g_cm3
+        found = mass_properties(one.shape, density, workshop.process, workshop.printer.nozzle_mm)
+        masses.append(MassLine("printed", one.name, one.quantity, one.material, found.mass_kg, "printed"))
     return {"mass_kg": sum(line.mass_kg for line in masses), "masses": mass_facts(masses)}
 
 
@@ -120,11 +122,6 @@ def coupon_files(workshop: Workshop, made: Sequence[Piece], pictures: bool = Tru
     values = {**coupon_values(workshop, holes), "pictures": list(shown)}
     yield "coupon.md", render("guides/coupon.md.j2", values)
     yield READINGS, fill("guides/readings.toml.j2", values)
-
-
-def _mass_kg(piece: Piece, workshop: Workshop) -> float:
-    density = workshop.materials[piece.material].density_g_cm3
-    return mass_properties(piece.shape, density, workshop.process, workshop.printer.nozzle_mm).mass_kg
 
 
 def coupon_values(workshop: Workshop, holes: HoleSizes) -> dict[str, Any]:

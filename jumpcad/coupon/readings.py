@@ -151,12 +151,9 @@ def _fits(readings: Readings, workshop: Workshop) -> dict[str, float]:
     loose = _given(gauge.axle_loose_mm for gauge in tried)
     own = {key: getattr(joints, key) for key in ("m2_tap_mm", "rib_mm", "lying_mm")}
     fits: dict[str, float] = {key: value for key, value in own.items() if value is not None}
-    if press:
-        fits["press_mm"] = min(press)
-    if sliding:
-        fits["sliding_mm"] = max(sliding)
-    if loose:
-        fits["loose_mm"] = max(loose)
+    for key, read, chosen in (("press_mm", press, min), ("sliding_mm", sliding, max), ("loose_mm", loose, max)):
+        if read:
+            fits[key] = chosen(read)
     if small := _smaller_mm(readings, workshop) + workshop.fits.holes_small_mm:
         fits = {key: value - SHARES[key] * small for key, value in fits.items()}
     if press or readings.press_hole_mm is not None:

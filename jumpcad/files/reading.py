@@ -8,6 +8,7 @@ import re
 import stat
 import tomllib
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -151,16 +152,11 @@ def to_csv(rows: Iterable[Sequence[object]]) -> str:
 
 def _cell(value: object) -> object:
     """Return a value that is safe in a cell; numbers, also those given as text, stay as they are."""
-    if not isinstance(value, str) or _is_number(value):
+    if not isinstance(value, str):
+        return value
+    with suppress(ValueError):
+        float(value)
         return value
     text = value.replace("\r\n", "\n").replace("\r", "\n")  # a lone \r is not quoted, and would begin another row
     text = without_controls(text, "[\n\t]")
     return f"'{text}" if text.startswith(FORMULA) else text
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

@@ -40,23 +40,15 @@ PUBLISHED_RESULTS = (
 )
 
 
-@dataclass(frozen=True)
-class Hyperparameter:
-    """A setting of the published simulation: in the study's table, and where the study's results come from."""
-
-    name: str
-    in_table: float | None
-    in_results: float
-
-
-HYPERPARAMETERS = (
-    Hyperparameter("lateral friction", 0.8, published.LATERAL_FRICTION),
-    Hyperparameter("spinning friction", 0.1, published.SPINNING_FRICTION),
-    Hyperparameter("rolling friction", 0.01, published.ROLLING_FRICTION),
-    Hyperparameter("joint damping", 0.001, published.JOINT_DAMPING),
-    Hyperparameter("restitution", 0.8, published.RESTITUTION),
-    Hyperparameter("lateral friction of the ground", None, published.GROUND_FRICTION),
-)
+HYPERPARAMETERS: dict[str, tuple[float | None, float]] = {
+    "lateral friction": (0.8, published.LATERAL_FRICTION),
+    "spinning friction": (0.1, published.SPINNING_FRICTION),
+    "rolling friction": (0.01, published.ROLLING_FRICTION),
+    "joint damping": (0.001, published.JOINT_DAMPING),
+    "restitution": (0.8, published.RESTITUTION),
+    "lateral friction of the ground": (None, published.GROUND_FRICTION),
+}
+"""Settings of the published simulation: in the study's table, and where the study's results come from."""
 
 READING = (
     "published: as given by the study. again: its simulation, run here. measured: built robots, electrical energy with "
@@ -98,10 +90,9 @@ class Reproduction:
 
 def reproduce() -> list[Reproduction]:
     """Simulate the study's four robots twice: as the study did, and with the evaluator, up to touchdown."""
+    designs = [(result, load_design(result.template)) for result in PUBLISHED_RESULTS]
     settings = Settings(flight="simulated")
-    rows = []
-    for result in PUBLISHED_RESULTS:
-        design = load_design(result.template)
-        jump = simulate(capsule_robot(design), settings)
-        rows.append(Reproduction(result, published.simulate(design), jump))
-    return rows
+    return [
+        Reproduction(result, published.simulate(design), simulate(capsule_robot(design), settings))
+        for result, design in designs
+    ]

@@ -76,7 +76,6 @@ def turned(vectors: Array, rotation: Array) -> Array:
     return np.asarray(np.einsum("...j,kj->...k", vectors, rotation))
 
 
-Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 
 SUPERSAMPLING = 2
@@ -191,14 +190,6 @@ def _corners(thing: ShadedMesh, pose: Array, camera: Camera, size: tuple[int, in
     return np.column_stack([pixels, 1.0 / distance, AMBIENT + DIFFUSE * lit])[thing.faces]
 
 
-def _least_beside(values: Array, y: Ints, x: Ints) -> Array:
-    """Return the least value (n,) among each of some pixels and its eight neighbours; `values` (height, width)."""
-    height, width = values.shape
-    rows = [width * row for row in (np.maximum(y - 1, 0), y, np.minimum(y + 1, height - 1))]
-    columns = [np.maximum(x - 1, 0), x, np.minimum(x + 1, width - 1)]
-    return functools.reduce(np.minimum, (values.take(row + column) for row in rows for column in columns))
-
-
 def _draw(ink: Mask, pixel: Array, distance_m: Array, nearness: Array) -> None:
     """Set the pixels of visible edges in `ink` (height, width).
 
@@ -219,5 +210,8 @@ def _draw(ink: Mask, pixel: Array, distance_m: Array, nearness: Array) -> None:
     near = 1.0 / (np.repeat(close, count) + share * np.repeat(closer - close, count))
     inside = (x >= 0) & (x < width) & (y >= 0) & (y < height)
     x, y, near = x[inside], y[inside], near[inside]
-    seen = near <= 1.0 / np.maximum(_least_beside(nearness, y, x), np.finfo(float).tiny) + EDGE_DEPTH_M
+    rows = [width * row for row in (np.maximum(y - 1, 0), y, np.minimum(y + 1, height - 1))]
+    columns = [np.maximum(x - 1, 0), x, np.minimum(x + 1, width - 1)]
+    beside = functools.reduce(np.minimum, (nearness.take(row + column) for row in rows for column in columns))
+    seen = near <= 1.0 / np.maximum(beside, np.finfo(float).tiny) + EDGE_DEPTH_M
     ink[y[seen], x[seen]] = True

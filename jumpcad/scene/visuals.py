@@ -81,21 +81,17 @@ class Visual:
 @decided_once
 def visuals(robot: Robot) -> tuple[Visual, ...]:
     """Return every copy of every printed part, then every bought part."""
-    return (*_printed(robot), *(_bought(item) for item in robot.hardware))
-
-
-def _printed(robot: Robot) -> Iterator[Visual]:
+    found = []
     for part in robot.parts:
         for number, place in enumerate(part.placements, start=1):
             name = part.name if part.quantity == 1 else f"{part.name}_{number}"
             colour = PRINTED_COLOURS[part.drawing.role]
-            yield Visual(name, part.name, place.body, in_metres(place.T_body_part), colour, part)
-
-
-def _bought(item: BoughtPart) -> Visual:
-    label = f"{item.article} {item.name}".lower()
-    colour = next((colour for word, colour in BOUGHT_COLOURS.items() if word in label), STEEL)
-    return Visual(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item)
+            found.append(Visual(name, part.name, place.body, in_metres(place.T_body_part), colour, part))
+    for item in robot.hardware:
+        label = f"{item.article} {item.name}".lower()
+        colour = next((colour for word, colour in BOUGHT_COLOURS.items() if word in label), STEEL)
+        found.append(Visual(item.name, item.name, item.body, in_metres(item.T_body_part), colour, item))
+    return tuple(found)
 
 
 Triangles = npt.NDArray[np.int64]

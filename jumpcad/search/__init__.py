@@ -15,29 +15,18 @@ if TYPE_CHECKING:
     from jumpcad.search.explore import sample as sample
     from jumpcad.search.explore import sweep as sweep
     from jumpcad.search.fronts import COSTS as COSTS
-    from jumpcad.search.fronts import Cost as Cost
     from jumpcad.search.fronts import energy_j as energy_j
-    from jumpcad.search.fronts import front as front
-    from jumpcad.search.fronts import hypervolume as hypervolume
-    from jumpcad.search.methods import METHODS as METHODS
-    from jumpcad.search.models import MODELS as MODELS
     from jumpcad.search.models import CapsuleModel as CapsuleModel
     from jumpcad.search.models import PrintedModel as PrintedModel
-    from jumpcad.search.models import PublishedModel as PublishedModel
     from jumpcad.search.models import RobotModel as RobotModel
     from jumpcad.search.models import robot_model as robot_model
     from jumpcad.search.optimization import optimize as optimize
-    from jumpcad.search.parameter import SearchParameter as SearchParameter
     from jumpcad.search.report import plots as plots
     from jumpcad.search.report.figures import save_figure as save_figure
     from jumpcad.search.report.page import plot_study as plot_study
-    from jumpcad.search.robust_pick import ActiveBound as ActiveBound
-    from jumpcad.search.robust_pick import Candidate as Candidate
     from jumpcad.search.space import Space as Space
     from jumpcad.search.study.evaluator import Evaluator as Evaluator
     from jumpcad.search.study.objective import OBJECTIVES as OBJECTIVES
-    from jumpcad.search.study.objective import Evaluation as Evaluation
-    from jumpcad.search.study.objective import Objective as Objective
     from jumpcad.search.study.objective import find_objective as find_objective
     from jumpcad.search.study.pool import Pool as Pool
     from jumpcad.search.study.pool import dask_pool as dask_pool
@@ -52,18 +41,15 @@ if TYPE_CHECKING:
 else:
     __getattr__, __dir__, __all__ = lazy_exports(__name__, {
         "jumpcad.search.explore": "components feasibility_map importance sample sweep",
-        "jumpcad.search.fronts": "COSTS Cost energy_j front hypervolume",
-        "jumpcad.search.models": "MODELS CapsuleModel PrintedModel PublishedModel RobotModel robot_model",
+        "jumpcad.search.fronts": "COSTS energy_j",
+        "jumpcad.search.models": "CapsuleModel PrintedModel RobotModel robot_model",
         "jumpcad.search.optimization": "optimize",
-        "jumpcad.search.parameter": "SearchParameter",
-        "jumpcad.search.methods": "METHODS",
-        "jumpcad.search.robust_pick": "ActiveBound Candidate",
         "jumpcad.search.report": "plots",
         "jumpcad.search.report.figures": "save_figure",
         "jumpcad.search.report.page": "plot_study",
         "jumpcad.search.space": "Space",
         "jumpcad.search.study.evaluator": "Evaluator",
-        "jumpcad.search.study.objective": "OBJECTIVES Evaluation Objective find_objective",
+        "jumpcad.search.study.objective": "OBJECTIVES find_objective",
         "jumpcad.search.study.pool": "Pool dask_pool local_pool",
         "jumpcad.search.study.request": "Request",
         "jumpcad.search.study.result": "Result",

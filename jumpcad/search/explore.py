@@ -97,7 +97,8 @@ def sweep(evaluator: Evaluator, around: Design, points: int) -> list[Sweep]:
     sweeps, start = [], _start(evaluator, around)
     for step, parameter in enumerate(evaluator.space.free):
         values = _grid(parameter, points)
-        trials = _all(evaluator, [_with(start, {parameter: value}) for value in values], "sweep", step)
+        varied = [start.changed({parameter.name: parameter.value(value)}) for value in values]
+        trials = _all(evaluator, varied, "sweep", step)
         sweeps.append(Sweep(parameter.name, values, trials, parameter.names))
     return sweeps
 
@@ -159,7 +160,9 @@ def importance(searched: Evaluator | Space, trials: Sequence[Trial], seed: int) 
             plain = _r_squared(surrogate, x[~known], y[~known])
             scores.append(plain)
             for _ in range(REPEATS):
-                shuffled = [_shuffled(x[~known], column, generator) for column in range(x.shape[1])]
+                shuffled = np.repeat(x[None, ~known], x.shape[1], axis=0)
+                for column, points in enumerate(shuffled):
+                    points[:, column] = generator.permutation(points[:, column])
                 falls.append([plain - _r_squared(surrogate, points, y[~known]) for points in shuffled])
     if not scores:
         raise JumpcadError(
@@ -179,12 +182,12 @@ def feasibility_map(evaluator: Evaluator, around: Design, x_name: str, y_name: s
             raise JumpcadError(f"{name!r} is not a free parameter; these are {', '.join(parameters)}")
     if x_name == y_name:
         raise JumpcadError(f"a map needs two different parameters, not {x_name} twice")
-    x, y = _grid(parameters[x_name], points), _grid(parameters[y_name], points)
-    start = _start(evaluator, around)
-    variants = [_with(start, {parameters[x_name]: u, parameters[y_name]: v}) for v in y for u in x]
+    along, up, start = parameters[x_name], parameters[y_name], _start(evaluator, around)
+    x, y = _grid(along, points), _grid(up, points)
+    variants = [start.changed({x_name: along.value(u), y_name: up.value(v)}) for v in y for u in x]
     trials = _all(evaluator, variants, "sweep", evaluator.space.dimension)
     lines = [trials[j * len(x) : (j + 1) * len(x)] for j in range(len(y))]
-    return FeasibilityMap(x_name, y_name, x, y, lines, parameters[x_name].names, parameters[y_name].names)
+    return FeasibilityMap(x_name, y_name, x, y, lines, along.names, up.names)
 
 
 def _grid(parameter: SearchParameter, points: int) -> Array:
@@ -198,10 +201,6 @@ def _start(evaluator: Evaluator, around: Design) -> Variant:
     return Variant(around, held).changed({one.name: one.value(one.lower) for one in space.parameters if not one.free})
 
 
-def _with(start: Variant, values: dict[SearchParameter, float]) -> Variant:
-    return start.changed({parameter.name: parameter.value(value) for parameter, value in values.items()})
-
-
 def _all(evaluator: Evaluator, designs: Sequence[Variant], phase: str, step: int) -> list[Trial]:
     return [trial for trial in evaluator.evaluate(designs, phase, step) if trial is not None]
 
@@ -210,9 +209,3 @@ def _r_squared(surrogate: Surrogate, x: Array, y: Array) -> float:
     """Return the share of the variance of y (n,) that predictions at x (n, d) explain."""
     error = y - surrogate.predict(x)[0]
     return 1.0 - float(np.sum(error**2) / np.sum((y - y.mean()) ** 2))
-
-
-def _shuffled(x: Array, column: int, generator: np.random.Generator) -> Array:
-    shuffled = x.copy()
-    shuffled[:, column] = generator.permutation(shuffled[:, column])
-    return shuffled

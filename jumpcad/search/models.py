@@ -3,7 +3,7 @@
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -18,10 +18,11 @@ from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.evaluation import FIGURES, JUMP_FIGURES, evaluate_made
 from jumpcad.face import __version__
 from jumpcad.files import Record, did_you_mean
-from jumpcad.findings import errors
+from jumpcad.findings import Finding, errors
 from jumpcad.mechanism.feasibility import geometry_findings, statics_findings
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.mechanism.variants import capsule_robot
+from jumpcad.process import T
 from jumpcad.search.estimate import estimated_robot as estimated
 from jumpcad.search.study.code_hash import code_digest, versions
 from jumpcad.search.study.objective import CANNOT_BUILD, Evaluation, Objective
@@ -62,6 +63,8 @@ class RobotModel:
     """What is searched for unless the user says something else: only a printed robot has a size."""
     packages: ClassVar[Sequence[str]] = ()
     """Packages whose versions decide an evaluation, besides numpy and the engine."""
+    limit_names: ClassVar[Sequence[str]] = ()
+    """Names of the limits of which a search may require margins; `*` stands for the end of several."""
     workshop: Workshop | None = None
     settings: Settings | None = None
     engine: str = field(default_factory=default_engine)
@@ -75,14 +78,18 @@ class RobotModel:
 
     def __call__(self, design: Design) -> Evaluation:
         """Evaluate a design; one that cannot be built is a verdict, not an error."""
+        return self._unless_refused(design, self._evaluated)
+
+    def _unless_refused(self, design: Design, found: Callable[[Design], T]) -> T | Evaluation:
         findings = tuple(geometry_findings(design))
-        rejecting = errors(findings)
-        if rejecting:
+        if rejecting := errors(findings):
             return Evaluation(rejecting[0].name, findings=findings)
         try:
-            return self._evaluated(design)
-        except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
+            return found(design)
+        except CannotBuildError as error:  # the limit that it missed, if it was a number, is learned
+            why, margin = str(error), error.margin
+            missed = [] if margin is None else [Finding(error.limit, "error", margin, error.unit, why, "")]
+            return Evaluation(CANNOT_BUILD, findings=tuple(missed), detail=why)
 
     def _evaluated(self, design: Design) -> Evaluation:
         """Evaluate a design whose geometry is right."""
@@ -95,11 +102,6 @@ class RobotModel:
             return Tolerances(LENGTH_MM)
         length, rate = self.workshop.fits.link_tolerance_mm, self.workshop.safety.spring_rate_scatter / 2.0
         return Tolerances(length, rate, PRINTED_MASS_SHARE, FLOOR_SHARE, printed=True)
-
-    @property
-    def limit_names(self) -> Sequence[str]:
-        """Names of the limits of which a search may require margins; `*` stands for the end of several."""
-        return ()
 
     def requiring(self, asked: Iterable[str] | Required) -> "RobotModel":
         """Return the model whose evaluations are rejected where a requirement is not kept."""
@@ -200,6 +202,7 @@ class PrintedModel(RobotModel):
     figure_names = tuple(FIGURES)
     default_objective = "body_lengths"
     packages = ("manifold3d", "trimesh")
+    limit_names = tuple(name for check in CHECKS if check.cheap for name in check.basis)
 
     def __call__(self, design: Design, workshop: Mapping[str, Value] = NOTHING) -> Evaluation:
         """Evaluate a design, in the workshop with these values; values that do not go together are a verdict."""
@@ -264,22 +267,18 @@ class PrintedModel(RobotModel):
         model = replace(self, perturbation={key: value for key, value in values.items() if key not in others})
         return replace(model, workshop=varied(self.workshop or load_workshop(), others)) if others else model
 
-    @property
-    def limit_names(self) -> Sequence[str]:
-        return [name for check in CHECKS if check.cheap for name in check.basis]
-
     def laid_out(self, variant: Variant) -> Mapping[str, float] | Evaluation:
         """Return figures of the layout of a printed robot, or the outcome of one whose parts have no room.
 
         A sixth of an evaluation. What is refused here would be refused by the evaluation too.
         """
-        if rejecting := errors(findings := geometry_findings(variant.design)):
-            return Evaluation(rejecting[0].name, findings=tuple(findings))
-        try:
+
+        def figures(design: Design) -> Mapping[str, float]:
             model = self.varied(variant.workshop) if variant.workshop else self
-            return estimated.layout_figures(layout_of(variant.design, model.workshop or load_workshop()))
-        except CannotBuildError as error:
-            return Evaluation(CANNOT_BUILD, findings=estimated.layout_findings(error), detail=str(error))
+            return estimated.layout_figures(layout_of(design, model.workshop or load_workshop()))
+
+        try:
+            return self._unless_refused(variant.design, figures)
         except JumpcadError as error:  # the values of the workshop do not go together
             return Evaluation("workshop", detail=str(error))
 
@@ -330,9 +329,11 @@ def robot_model(
     """
     if engine is not None:
         require_engine(engine)
-    uses = {"capsule": ("settings",), "published": ()}.get(name, ("workshop", "settings"))
-    for option, value in (("workshop", workshop), ("settings", settings)):
-        if value is not None and option not in uses:
+    for option, value, without in (
+        ("workshop", workshop, ("capsule", "published")),
+        ("settings", settings, ("published",)),
+    ):
+        if value is not None and name in without:
             named = "" if isinstance(value, Record) else f" {value}"
             raise JumpcadError(f"{option}{named}: does not apply to the {name} robot; leave it out")
     if name == "published" and engine not in (None, "pybullet"):

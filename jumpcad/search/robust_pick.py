@@ -175,9 +175,8 @@ class _Examined:
         return [(kind, variant) for kind, variants in kinds.items() for variant in variants[start:end]]
 
     def candidate(self) -> Candidate:
-        rejections = dict(sorted(self.rejections.items()))
         percentiles = self._tenth("parameters"), self._tenth("print")
-        return Candidate(self.trial, *percentiles, rejections, self.examined, self.fails)
+        return Candidate(self.trial, *percentiles, dict(sorted(self.rejections.items())), self.examined, self.fails)
 
     def _tenth(self, kind: str, most: int | None = None) -> float:
         scores = self.scores[kind][:most]
@@ -201,11 +200,8 @@ def _examine(evaluator: Evaluator, field: Sequence[_Examined], new: int, at: tup
         if trial is not None:
             one.rejected_score = rejected
             score = evaluator.unrequired(trial)
-            if score is None:
-                score = rejected
-            elif trial.score is None:
-                score = (rejected + score) / 2.0
-            one.scores[kind].append(score)
+            score = rejected if score is None else score
+            one.scores[kind].append(score if trial.score is not None else (rejected + score) / 2.0)
             one.rejections.update(trial.evaluation.reasons)
 
 
@@ -244,12 +240,9 @@ def active_bounds(
     evaluations = 0 if evaluator.expired() else evaluations
     variants = [trial.variant.changed({bound.name: bound.beyond}) for bound in found]
     trials = evaluator.evaluate(variants, "bounds", 0, limit=evaluations, run=run)
-    return [_worth(bound, trial, beyond) for bound, beyond in zip(found, trials, strict=True)]
-
-
-def _worth(bound: ActiveBound, trial: Trial, beyond: Trial | None) -> ActiveBound:
-    if beyond is None:
-        return bound
-    if beyond.score is None:
-        return replace(bound, reason=", ".join(beyond.evaluation.reasons))
-    return replace(bound, worth=beyond.score - (trial.score or 0.0), reason="")
+    for place, beyond in enumerate(trials):
+        if beyond is not None:
+            worth = None if beyond.score is None else beyond.score - (trial.score or 0.0)
+            reason = ", ".join(beyond.evaluation.reasons)
+            found[place] = replace(found[place], worth=worth, reason=reason)
+    return found

@@ -247,13 +247,7 @@ class Space:
 
     def snap(self, units: Array) -> Array:
         """Return points (n, dimension) of the unit cube with every choice moved to its nearest level."""
-        snapped = np.clip(units, 0.0, 1.0)
-        for column, parameter in enumerate(self.free):
-            if parameter.choices:
-                levels = np.asarray(parameter.levels)
-                nearest = np.abs(snapped[:, column, None] - levels).argmin(axis=1)
-                snapped[:, column] = levels[nearest]
-        return snapped
+        return self._chosen(np.clip(units, 0.0, 1.0), lambda at, levels: np.abs(at[:, None] - levels).argmin(axis=1))
 
     def spread(self, count: int, generator: np.random.Generator) -> Array:
         """Return `count` scrambled Sobol points (count, dimension) of the unit cube, with every choice as often."""
@@ -265,12 +259,15 @@ class Space:
 
         Of three names that `snap` finds at 0, ½ and 1, the second would be as frequent as both others together.
         """
-        drawn = units.copy()
+        return self._chosen(units.copy(), lambda at, levels: (at * len(levels)).astype(int))
+
+    def _chosen(self, units: Array, which: Callable[[Array, Array], Array]) -> Array:
+        """Put points at the levels of choices that a function tells from places along an axis."""
         for column, parameter in enumerate(self.free):
             if parameter.choices:
                 levels = np.asarray(parameter.levels)
-                drawn[:, column] = levels[(units[:, column] * len(levels)).astype(int)]
-        return drawn
+                units[:, column] = levels[which(units[:, column], levels)]
+        return units
 
     def near(self, centre: Variant, names: Sequence[str] = (), percent: float | None = None) -> "Space | None":
         """Return the part of the space about one of its variants; None if nothing stays free in it.

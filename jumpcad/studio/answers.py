@@ -151,15 +151,14 @@ class Playback:
         low = min(int(np.searchsorted(shown, wanted, side="right")) - 1, len(shown) - 2)
         span = float(shown[low + 1] - shown[low])
         share = (wanted - float(shown[low])) / span
-        (cam, _), (gear, _), (real, lasts) = (
-            _between(self.motion[key], low, share) for key in ("cam_rad", "gear_rad", "time_s")
-        )
+        keys = "cam_rad", "gear_rad", "time_s"
+        cam, gear, real = (float(np.interp(wanted, shown, self.motion[key])) for key in keys)
         return ShownMoment(
             {name: _posed(poses[low], poses[low + 1], share) for name, poses in self._frames.items()},
             {one["node"]: one["per_cam"] * (cam if one["node"] == CAM else gear) for one in self.turning},
             self.motion["phase"][low + 1 if share == 1.0 else low],
             real,
-            span / max(lasts, SHORTEST_S),
+            span / max(self.motion["time_s"][low + 1] - self.motion["time_s"][low], SHORTEST_S),
         )
 
     @cached_property
@@ -169,12 +168,6 @@ class Playback:
     @cached_property
     def _frames(self) -> dict[str, Array]:
         return {name: np.array(poses) for name, poses in self.motion["frames"].items()}
-
-
-def _between(values: list[float], low: int, share: float) -> tuple[float, float]:
-    """Return the value between an index and the next one, and their difference."""
-    step = values[low + 1] - values[low]
-    return values[low] + share * step, step
 
 
 def _posed(first: Array, second: Array, share: float) -> Array:

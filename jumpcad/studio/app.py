@@ -205,13 +205,10 @@ class Studio:
         return "as at the start" if self.points is None else f"as trial {self.number}"
 
     def _keep(self) -> str:
-        self.kept = self.shown
-        if self.kept is None or self.kept.robot is None:
-            self.kept = None
-            self.stage.show_ghost(None)
-            return "no ghost"
-        self.stage.show_ghost(self.kept.robot)
-        return "kept: figures show the difference to it"
+        robot = self.shown.robot if self.shown else None
+        self.kept = self.shown if robot else None
+        self.stage.show_ghost(robot)
+        return "kept: figures show the difference to it" if robot else "no ghost"
 
     def _save(self) -> str:
         """Save the design, and the workshop of a point beside it; say with which workshop the design is this robot."""

@@ -127,7 +127,9 @@ class StudioStage:
         for name, one in names.items():
             colour, opacity = _look(tree, one, wrong)
             place, turn = _placed(one.T_body_mesh)
-            key = _shape(one)
+            key: object = one.shape
+            if isinstance(one.shape, DrawnWire):  # it lies in its body's frame, and its mesh does not
+                key = one.shape.points_mm.tobytes(), one.shape.diameter_mm, one.T_body_mesh.tobytes()
             if name in self.meshes and self.meshes[name][0] == key:
                 handle = self.meshes[name][1]
                 _give(handle, position=place, wxyz=turn, color=colour, opacity=opacity)
@@ -171,11 +173,3 @@ def _give(handle: Any, **values: Any) -> None:
         held = getattr(handle, name)
         if (tuple(held) if isinstance(value, tuple) else held) != value:
             setattr(handle, name, value)
-
-
-def _shape(one: Visual) -> object:
-    """Return a key that is equal for equal meshes."""
-    shape = one.shape
-    if isinstance(shape, DrawnWire):  # it lies in its body's frame, and its mesh does not
-        return shape.points_mm.tobytes(), shape.diameter_mm, one.T_body_mesh.tobytes()
-    return shape

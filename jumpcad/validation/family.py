@@ -103,7 +103,8 @@ def _robot(values: Array, mass_g: float, spring_j: float, more_g: float) -> Mech
     centre = (sole_g * l4 - toes_g * back) / 2.0 / (sole_g + toes_g)
     spread = sole_g * (l4**2 / 12.0 + (l4 / 2.0 - centre) ** 2) + toes_g * (back**2 / 12.0 + (back / 2.0 + centre) ** 2)
     body_g = (1.0 - legs) * mass_g + more_g
-    wind_deg = ratio * (rest + _tilt_deg(l2, l3, l4, rest))
+    rise = (l3 - l2) * math.sin(math.radians(rest)) / l4  # see `Design.beta_rad`; where there is no pose, refused later
+    wind_deg = ratio * (rest + math.degrees(math.asin(min(max(rise, -1.0), 1.0))))
     stiffness = 1000.0 * 2.0 * efficiency * spring_j / math.radians(wind_deg) ** 2 * math.pi / 180.0
     design = {"carrying_link_mm": l2, "c_coef": c, "d_coef": d, "e_coef": e, "compression_ratio": ratio,
               "rest_angle_deg": rest, "stiffness_nmm_per_deg": stiffness, "ground_link_angle_deg": TOE_DEG}  # fmt: skip
@@ -117,8 +118,3 @@ def _robot(values: Array, mass_g: float, spring_j: float, more_g: float) -> Mech
     pin = {"friction": pins, "radius_mm": (PIN_MM,) * 4}
     data = {"name": "member", "design": design, "bodies": bodies, "foot": foot, "pins": pin}
     return five_bar_robot(RobotFile.from_data(data, "member"))
-
-
-def _tilt_deg(l2: float, l3: float, l4: float, rest_deg: float) -> float:
-    """Return the body's tilt at rest, see `Design.beta_rad`; 0 where there is no such pose, which is refused later."""
-    return math.degrees(math.asin(min(max((l3 - l2) * math.sin(math.radians(rest_deg)) / l4, -1.0), 1.0)))

@@ -1,7 +1,7 @@
 """One table: what was measured on each robot, beside an interval that samples what is unknown of it."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -34,27 +34,13 @@ TOLERANCE = {
 """By which a figure may lie outside its interval: what published figures of one robot differ by among themselves."""
 
 
-@dataclass(frozen=True)
-class Row:
-    """One figure: measured, and quantiles (5, 50, 95 %) of what is computed; `verdict` says how they compare.
+Row = dict[str, Any]
+"""One figure: measured, and quantiles (5, 50, 95 %) of what is computed; `verdict` says how they compare.
 
-    It `agrees` or `differs`, by `tolerance` outside the interval; it lies `below the bound` or above; the robots were
-    `chosen by` it, so it is no test; it is `not judged` where it, or what the interval is computed from, is only
-    remembered; it is `measured only` where nothing is computed.
-    """
-
-    name: str
-    measured: float
-    confidence: str
-    source: str
-    low: float | None = None
-    median: float | None = None
-    high: float | None = None
-    tolerance: float | None = None
-    verdict: str = "measured only"
-    how: str = ""
-
-
+It `agrees` or `differs`, by `tolerance` outside the interval; it lies `below the bound` or above; the robots were
+`chosen by` it, so it is no test; it is `not judged` where it, or what the interval is computed from, is only
+remembered; it is `measured only` where nothing is computed.
+"""
 Table = Callable[[RobotFacts, np.random.Generator], Iterable[Row]]
 
 
@@ -68,16 +54,12 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
     tables: list[tuple[str, str, Table]] = [
         ("kovac-2008", "mechanism", lambda robot, _: _mechanism(robot, members)),
         ("kovac-2008", "flight", _through_air),
-        ("msu-2013", "flight", _range_from_height),
-        ("seu-2012", "flight", _range_from_height),
+        *((key, "flight", _range_from_height) for key in ("msu-2013", "seu-2012")),
         ("flea-2013", "flight", _flea),
         ("strider-2015", "flight", _strider),
-        ("kenan-1.0", "whole robot", lambda _, generator: _whole("kenan-1.0", generator)),
-        ("kenan-2.0", "whole robot", lambda _, generator: _whole("kenan-2.0", generator)),
-        ("kovac-2009", "bound", lambda robot, _: _bound(robot, epfl, members)),
-        ("kovac-2010", "bound", lambda robot, _: _bound(robot, epfl, members)),
-        ("flea-2013", "efficiency", _efficiency),
-        ("clover-2022", "efficiency", _efficiency),
+        *((key, "whole robot", partial(_whole, key)) for key in ("kenan-1.0", "kenan-2.0")),
+        *((key, "bound", lambda robot, _: _bound(robot, epfl, members)) for key in ("kovac-2009", "kovac-2010")),
+        *((key, "efficiency", _efficiency) for key in ("flea-2013", "clover-2022")),
         *((key, "left out", lambda *_: ()) for key, robot in facts.robots.items() if robot.reason),
     ]
     found: list[dict[str, Any]] = []
@@ -86,7 +68,7 @@ def validate(entered: Mapping[str, float] | None = None, seed: int = 0) -> list[
         rows = table(robot, np.random.default_rng([seed, len(found)]))
         found.append(
             {"key": key, "name": robot.name, "tier": tier, "leg": robot.leg, "unknown": list(robot.unknown),
-             "reason": robot.reason or robot.differs, "figures": [asdict(row) for row in rows]}
+             "reason": robot.reason or robot.differs, "figures": list(rows)}
         )  # fmt: skip
     return found
 
@@ -103,19 +85,21 @@ def _row(robot: RobotFacts, name: str, values: npt.ArrayLike, how: str, of: tupl
          kind: str = "") -> Row:  # fmt: skip
     """Return the row of a figure, computed (n,) from the figures `of` the robot."""
     row = _compared(name, robot.figures[name], values, TOLERANCE[kind or name], how)
-    return row if robot.sure(name, *of) else replace(row, verdict="not judged")
+    return row if robot.sure(name, *of) else row | {"verdict": "not judged"}
 
 
 def _compared(name: str, figure: Figure, values: npt.ArrayLike, tolerance: float | None, how: str) -> Row:
     """Return the row of a figure beside computed values (n,), which may be none where entered figures disagree."""
+    row: Row = {"name": name, "measured": figure.value, "confidence": figure.confidence, "source": figure.source}
+    row |= dict.fromkeys(("low", "median", "high", "tolerance")) | {"verdict": "measured only", "how": how}
     if not np.size(values):
-        return Row(name, figure.value, figure.confidence, figure.source, how=how)
+        return row
     low, median, high = np.quantile(np.asarray(values, dtype=float), QUANTILES).tolist()
     verdict = "chosen by"
     if tolerance is not None:
         within = low * (1.0 - tolerance) <= figure.value <= high * (1.0 + tolerance)
         verdict = "agrees" if within else "differs"
-    return Row(name, figure.value, figure.confidence, figure.source, low, median, high, tolerance, verdict, how)
+    return row | {"low": low, "median": median, "high": high, "tolerance": tolerance, "verdict": verdict}
 
 
 def _mechanism(robot: RobotFacts, members: list[Member]) -> Iterator[Row]:
@@ -151,11 +135,11 @@ def _bound(robot: RobotFacts, epfl: RobotFacts, members: list[Member]) -> Iterat
     jumps = [jump_of(one.values, epfl.value("mass_g"), epfl.value("spring_energy_j"), more_g) for one in members]
     rises = [jump.com_rise_m for jump in jumps if jump and jump.com_rise_m is not None]
     row = _compared("height_m", robot.figures["height_m"], rises, None, "robots of 2008, heavier, no cage, no drag")
-    yield _bounded(row) if epfl.sure("spring_energy_j") and row.high else replace(row, verdict="not judged")
+    yield _bounded(row) if epfl.sure("spring_energy_j") and row["high"] else row | {"verdict": "not judged"}
 
 
 def _bounded(row: Row) -> Row:
-    return replace(row, verdict="below the bound" if row.measured <= (row.high or 0.0) else "above the bound")
+    return row | {"verdict": "below the bound" if row["measured"] <= (row["high"] or 0.0) else "above the bound"}
 
 
 def _range_from_height(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
@@ -185,7 +169,7 @@ def _strider(robot: RobotFacts, generator: np.random.Generator) -> Iterator[Row]
     yield _bounded(_compared("height_m", robot.figures["height_m"], rises, None, "flight from the speed, without air"))
 
 
-def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
+def _whole(name: str, _: RobotFacts, generator: np.random.Generator) -> Iterator[Row]:
     """Yield distance and height of a printed robot under every reading, over the priors of a calibration."""
     subject = load_subject(name)
     model = CalibrationModel([subject])
@@ -202,8 +186,7 @@ def _whole(name: str, generator: np.random.Generator) -> Iterator[Row]:
 
 def _efficiency(robot: RobotFacts, _: np.random.Generator) -> list[Row]:
     """Return the measured efficiency, beside which nothing is computed."""
-    figure = robot.figures["efficiency"]
-    return [Row("efficiency", figure.value, figure.confidence, figure.source)]
+    return [_compared("efficiency", robot.figures["efficiency"], (), None, "")]
 
 
 def _flights(

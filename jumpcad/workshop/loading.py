@@ -51,7 +51,10 @@ def load_workshop(
     JumpcadError
         If a file is missing, or a key is unknown, out of range, or contradicts another.
     """
-    path = find_template("workshops", _not_a_printer(name_or_path))
+    for kind, word in (("printers", "printer"), ("materials", "material")):
+        if (name := str(name_or_path)).lower() in template_names(kind):
+            raise JumpcadError(f"{name} is a {word}, not a workshop: say --{word} {name}, alone or with a workshop")
+    path = find_template("workshops", name_or_path)
     data, origins = _assembled(path, ())
     if printer is not None:
         origins.insert(0, _printer(printer))
@@ -63,15 +66,6 @@ def load_workshop(
         data["roles"] = dict.fromkeys(Roles.model_fields, name)
         data["materials"] = {name: _material(path, name, own)}
     return Workshop.from_data(data, str(path), origins=origins)
-
-
-def _not_a_printer(name_or_path: str | Path) -> str | Path:
-    """Return the name or path of a workshop; a printer's or a material's name belongs to another option."""
-    name = str(name_or_path)
-    for kind, word in (("printers", "printer"), ("materials", "material")):
-        if name.lower() in template_names(kind):
-            raise JumpcadError(f"{name} is a {word}, not a workshop: say --{word} {name}, alone or with a workshop")
-    return name_or_path
 
 
 def _printer(name_or_path: str) -> Origin:
@@ -106,7 +100,12 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list
         kind: _completed(kind, data[kind], str(path), text) for kind in OWN_PARTS if isinstance(data.get(kind), dict)
     }
     if isinstance(data.get("bought"), dict) and data["bought"].get("kit"):
-        data["bought"] = _of_kit(data["bought"]["kit"], str(path), text) | data["bought"]
+        kits, name = load_catalogue().kits, data["bought"]["kit"]
+        if not isinstance(name, str) or name not in kits:
+            hint = did_you_mean(name, kits) if isinstance(name, str) else ""
+            where = place(str(path), text, "bought.kit")
+            raise JumpcadError(f"{where}: bought.kit = {shown(name)}: is none of the kits {', '.join(kits)}{hint}")
+        data["bought"] = kits[name].model_dump() | data["bought"]
     own = set(data["materials"]) if isinstance(data.get("materials"), dict) else set()
     whole = _merged(whole, data)
     if isinstance(whole.get("roles"), dict) and isinstance(whole.setdefault("materials", {}), dict):
@@ -120,15 +119,6 @@ def _assembled(path: Path, above: tuple[str, ...]) -> tuple[dict[str, Any], list
             )
         whole["materials"] = {name: _material(path, name, whole["materials"].get(name)) for name in sorted(set(used))}
     return whole, origins
-
-
-def _of_kit(name: Any, source: str, text: str) -> dict[str, Any]:
-    kits = load_catalogue().kits
-    if not isinstance(name, str) or name not in kits:
-        hint = did_you_mean(name, kits) if isinstance(name, str) else ""
-        where = place(source, text, "bought.kit")
-        raise JumpcadError(f"{where}: bought.kit = {shown(name)}: is none of the kits {', '.join(kits)}{hint}")
-    return kits[name].model_dump()
 
 
 def _material(path: Path, name: str, own: Any) -> Any:

@@ -23,7 +23,7 @@ class Slot:
 
     def fitting(self, catalogue: Catalogue) -> list[str]:
         parts = getattr(catalogue, self.table)
-        return [name for name, part in parts.items() if _fits(part, self.word)]
+        return [name for name, part in parts.items() if self.word in (_kinds(part) or (self.word,))]
 
     def misfit(self, catalogue: Catalogue, name: str) -> str:
         """Return why a name does not fit, with those that do; empty if it fits."""
@@ -69,8 +69,3 @@ SLOTS = {
 def _kinds(part: object) -> tuple[str, ...]:
     """Return what a part can be used as, where parts of its table differ in that; empty if that is not known."""
     return (part.kind,) if isinstance(part, Component) else part.uses if isinstance(part, Board) else ()
-
-
-def _fits(part: object, word: str) -> bool:
-    kinds = _kinds(part)
-    return not kinds or word in kinds

@@ -45,32 +45,23 @@ def varied(workshop: Workshop, values: Mapping[str, Value]) -> Workshop:
     if (kit := values.get("bought.kit")) in kits:
         data["bought"] |= kits[str(kit)].model_dump(include=set(data["bought"]))
     for key, value in values.items():
-        held = workshop_value(workshop, key)
-        _require_part(workshop, key, value)
+        now, slot = workshop_value(workshop, key), SLOTS.get(key)
+        if slot is not None and (reason := slot.misfit(workshop.catalogue, str(value))):
+            raise JumpcadError(f"{key} = {shown(value)}: {reason}")
+        if key == "bought.kit" and value and value not in kits:
+            raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(kits)}{did_you_mean(str(value), kits)}")
         *path, last = key.split(".")
         table = data
         for step in path:
             table = table[step]
-        table[last] = type(held)(round(value)) if isinstance(held, int) and isinstance(value, float) else value
-    used = sorted(set(data["roles"].values()))
-    data["materials"] = {name: data["materials"].get(name) or _shipped_material(name) for name in used}
+        table[last] = type(now)(round(value)) if isinstance(now, int) and isinstance(value, float) else value
+    held, known = data["materials"], template_names("materials")
+    for name in sorted(set(data["roles"].values()) - held.keys()):
+        if str(name).lower() not in known:
+            raise JumpcadError(f"{shown(name)} is no material of this workshop, nor one of {', '.join(known)}")
+        held[name] = read_toml(find_template("materials", str(name).lower()))[0]
+    data["materials"] = {name: held[name] for name in sorted(set(data["roles"].values()))}
     return Workshop(**data)
-
-
-def _require_part(workshop: Workshop, key: str, value: Value) -> None:
-    """Refuse a name that is no part of the catalogue, or one of another kind."""
-    slot = SLOTS.get(key)
-    if slot is not None and (reason := slot.misfit(workshop.catalogue, str(value))):
-        raise JumpcadError(f"{key} = {shown(value)}: {reason}")
-    if key == "bought.kit" and value and value not in (kits := workshop.catalogue.kits):
-        raise JumpcadError(f"{key} = {shown(value)}: is none of {', '.join(kits)}{did_you_mean(str(value), kits)}")
-
-
-def _shipped_material(name: Any) -> dict[str, Any]:
-    known = template_names("materials")
-    if str(name).lower() not in known:
-        raise JumpcadError(f"{shown(name)} is no material of this workshop, nor one of {', '.join(known)}")
-    return read_toml(find_template("materials", str(name).lower()))[0]
 
 
 def _varies(key: str, value: Any) -> bool:

@@ -91,6 +91,9 @@ class Workshop(Record):
     def stop_pad(self) -> parts.Pad:
         return self.catalogue.pads[self.body.stop_pad]
 
+    def __hash__(self) -> int:
+        return hash(self.printer)  # tables by name have none
+
     def __repr__(self) -> str:
         materials = ", ".join(f"{role} {name[:20]}" for role, name in self.roles.model_dump().items())
         return f"<Workshop: {self.printer.name[:60]}, layers of {self.process.layer_height_mm:g} mm, {materials}>"
@@ -135,7 +138,10 @@ class Workshop(Record):
         yield from _not_ascending(fits, ("m2_tap_mm", "m2_clearance_mm"))
         yield from _not_ascending(fits, ("m3_tap_mm", "m3_clearance_mm"))
         yield from _release_contradictions(self.release)
-        yield from _cage_contradictions(self.cage)
+        for key, least in CAGE_LEAST.items():
+            if 0.0 < getattr(self.cage, key) < least:  # 0: it is found
+                reason = f"must be at least {least:g}, or 0: found from the robot's height"
+                yield ("cage", key), getattr(self.cage, key), reason
         if self.steering.gyroscope and self.steering.wheel == "none":
             reason = 'measures the turns of a wheel, and there is none: set wheel = "o-ring", or leave it out'
             yield ("steering", "gyroscope"), self.steering.gyroscope, reason
@@ -200,13 +206,6 @@ def _release_contradictions(release: tables.ReleaseTable) -> Iterator[Contradict
         low, high = getattr(release, key)
         if low > high:
             yield ("release", key), low, f"must be at most {high:g}, the end of its range"
-
-
-def _cage_contradictions(cage: tables.CageTable) -> Iterator[Contradiction]:
-    """Yield what is too small for any hoop, but 0, which means that it is found."""
-    for key, least in CAGE_LEAST.items():
-        if 0.0 < getattr(cage, key) < least:
-            yield ("cage", key), getattr(cage, key), f"must be at least {least:g}, or 0: found from the robot's height"
 
 
 def _not_ascending(fits: tables.Fits, keys: tuple[str, ...]) -> Iterator[Contradiction]:

@@ -22,7 +22,7 @@ def test_a_signal_is_exit_code_128_and_its_number(
         return exit_code
 
     monkeypatch.setattr("jumpcad.cli.output.complain", complain)
-    monkeypatch.setattr("jumpcad.design.load_design", lambda _: signal.raise_signal(number))
+    monkeypatch.setattr("jumpcad.load_design", lambda _: signal.raise_signal(number))
     try:
         assert run("new", "robot.toml")[0] == 128 + number
     finally:

@@ -67,7 +67,7 @@ def test_a_bug_is_exit_code_3_with_its_traceback(run: Run, monkeypatch: pytest.M
     def broken(_: str) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr("jumpcad.design.load_design", broken)
+    monkeypatch.setattr("jumpcad.load_design", broken)
     for more in ((), ("--json",)):
         code, out, err = run("new", "robot.toml", *more)
         assert (code, out) == (3, "")

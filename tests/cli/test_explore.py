@@ -42,7 +42,7 @@ def test_an_option_of_another_view_is_refused_and_not_ignored(folder, monkeypatc
     def begun(*_):
         raise JumpcadError("begun")
 
-    monkeypatch.setattr("jumpcad.search.models.robot_model", begun)
+    monkeypatch.setattr("jumpcad.search.robot_model", begun)
     said = refusal("explore", view, *QUICK, f"--{option}", value)
     other = f"jumpcad: --{option} {value}: does not apply to {view}, only to {views}"
     assert said == ("jumpcad: begun" if view in views.split(" and ") else other)

@@ -148,7 +148,7 @@ def raising(error: BaseException) -> Callable[..., Any]:
     return fail
 
 
-@pytest.mark.parametrize("place", ["jumpcad.design.load_design", "json.dumps", "os.fsync", "hashlib.sha256"])
+@pytest.mark.parametrize("place", ["jumpcad.load_design", "json.dumps", "os.fsync", "hashlib.sha256"])
 @pytest.mark.parametrize("command", ["new", "build over"])
 def test_an_interrupt_leaves_nothing_half(
     sandbox: Sandbox, monkeypatch: pytest.MonkeyPatch, place: str, command: str

@@ -44,7 +44,7 @@ def test_published_figures_flatter_weak_jumpers(rows: dict[str, Reproduction]) -
 
 def test_hyperparameters_are_those_of_the_studys_table_and_of_its_code() -> None:
     """In the table: 0.8, 0.1, 0.01, 0.001, 0.8, without one for the ground; the results come from others."""
-    assert {item.name: (item.in_table, item.in_results) for item in HYPERPARAMETERS} == {
+    assert HYPERPARAMETERS == {
         "lateral friction": (0.8, 1.0), "spinning friction": (0.1, 0.15), "rolling friction": (0.01, 0.01),
         "joint damping": (0.001, 0.001), "restitution": (0.8, 0.9), "lateral friction of the ground": (None, 1.5),
     }  # fmt: skip

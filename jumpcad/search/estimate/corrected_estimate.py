@@ -6,7 +6,6 @@ smooth (kriging). An estimate is never a score: what is proposed as the best was
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -35,18 +34,8 @@ WORTH = 0.0005
 builds a third less, and ends 1 % lower (ten seeds)."""
 
 
-@dataclass(frozen=True)
-class Bounds:
-    """What a variant scores about, at least and at most; no score where it does not jump."""
-
-    score: float | None
-    least: float
-    most: float
-
-    @property
-    def outcome(self) -> Evaluation:
-        """The outcome of what is not built for it, with the estimated score."""
-        return Evaluation(SCREENED, {} if self.score is None else {GUESSED: self.score})
+Bounds = tuple[float | None, float, float]
+"""What a variant scores about, at least and at most; no score where it does not jump."""
 
 
 class Screen:
@@ -68,9 +57,15 @@ class Screen:
             units = np.array([self._space.to_unit(trial.variant) for trial in built])
             distance = np.abs(units - self._space.to_unit(best.variant)).max(axis=1)
             near = [built[index] for index in np.argsort(distance, kind="stable")[:BESIDE]]
-            pairs = [(self._place(one.variant, one.evaluation.metrics), self._log_ratio(one)) for one in near]
-            known = [(place, ratio) for place, ratio in pairs if ratio is not None]
-            self._ratios = None if len(known) < PAIRS else _ratios(*map(np.array, zip(*known, strict=True)))
+            known = []
+            for one in near:
+                estimate = self._estimator(one.variant)
+                if estimate and min(one.score or 0.0, estimate.score or 0.0) > 0.0:
+                    ratio = math.log((one.score or 0.0) / (estimate.score or 0.0))
+                    known.append((self._place(one.variant, one.evaluation.metrics), ratio))
+            places, ratios = (np.array([one[column] for one in known]) for column in (0, 1))
+            theta = [0.0, *[math.log(LENGTH)] * places.shape[-1], math.log(NOISE)]
+            self._ratios = None if len(known) < PAIRS else Surrogate(places, ratios, theta)
 
     def outcomes(self, variants: Iterable[Variant], best: float) -> dict[Key, Evaluation]:
         """Return the outcomes of the variants of a generation that need not be built.
@@ -83,41 +78,29 @@ class Screen:
                 continue
             rough = self._estimator.rough(one)
             if rough is not None and rough.score is not None and ROUGHLY * rough.score < bar:
-                found[one.key] = Bounds(rough.score, 0.0, ROUGHLY * rough.score).outcome
+                found[one.key] = Evaluation(SCREENED, {GUESSED: rough.score})
                 continue
             laid = self._model.refused_first(one.design) or self._estimator.layout(one)
             estimate = None if isinstance(laid, Evaluation) else self._estimator(one)
             if isinstance(laid, Evaluation):
                 found[one.key] = laid.bare
             elif estimate is not None:
-                bounds = self._bounds(estimate, self._place(one, laid))
-                held.append((one, bounds))
-                bar = max(bar, bounds.least)
-        return found | {one.key: bounds.outcome for one, bounds in held if bounds.most < bar}
+                score, least, most = self._bounds(estimate, self._place(one, laid))
+                held.append((one, {} if score is None else {GUESSED: score}, most))
+                bar = max(bar, least)
+        return found | {one.key: Evaluation(SCREENED, guessed) for one, guessed, most in held if most < bar}
 
     def _bounds(self, estimate: Estimate, place: Array) -> Bounds:
         """Return the bounds of the score at a place; what tips or is too weak by an estimate may stand after all."""
         if estimate.score is None:
-            return Bounds(None, 0.0, math.inf if min(estimate.margins.values(), default=0.0) < 0.0 else 0.0)
+            return None, 0.0, math.inf if min(estimate.margins.values(), default=0.0) < 0.0 else 0.0
         if self._ratios is None:
-            return Bounds(estimate.score, 0.0, math.inf)
+            return estimate.score, 0.0, math.inf
         mean, deviation = self._ratios.predict(place[None])
         score = estimate.score * math.exp(float(mean[0]))
         error = math.exp(CAREFUL * math.hypot(float(deviation[0]), self._ratios.scatter))
-        return Bounds(score, score / error, score * error) if estimate.kept else Bounds(None, 0.0, score * error)
+        return (score, score / error, score * error) if estimate.kept else (None, 0.0, score * error)
 
     def _place(self, one: Variant, laid: Mapping[str, float]) -> Array:
         """Return the point (d + k,) of a variant and of its layout, so that what leaps is far away."""
         return np.append(self._space.to_unit(one), of_layout(laid))
-
-    def _log_ratio(self, trial: Trial) -> float | None:
-        """Return the logarithm of a robot's score over its estimate; None where one is none, or not positive."""
-        estimate = self._estimator(trial.variant)
-        if estimate is None or min(trial.score or 0.0, estimate.score or 0.0) <= 0.0:
-            return None
-        return math.log((trial.score or 0.0) / (estimate.score or 0.0))
-
-
-def _ratios(places: Array, ratios: Array) -> Surrogate:
-    theta = [0.0, *[math.log(LENGTH)] * places.shape[1], math.log(NOISE)]
-    return Surrogate(places, ratios, theta)

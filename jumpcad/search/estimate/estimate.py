@@ -9,7 +9,6 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Self
 
 import numpy as np
@@ -26,7 +25,7 @@ from jumpcad.search.models import PrintedModel, plain_figures
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import EQUALS, Evaluation, Objective
 from jumpcad.search.study.trial import Trial, best_trial, typical_size
-from jumpcad.search.study.variant import Key, Variant
+from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.simulation import simulate
 from jumpcad.transforms import Array
 
@@ -39,7 +38,6 @@ REACH = 0.25
 LEARNED, SLACK = 2, 0.2
 """Robots that a limit has rejected, from which on its margins are fitted, and by how much a margin may be missed, in
 arcsinh of its typical size; judgement."""
-NO_LIMITS: Mapping[str, float] = MappingProxyType({})
 RIDGE = 1e-3
 FEW, FEW_MORE = 80, 10.0
 """Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
@@ -59,12 +57,10 @@ class FittedFigures:
 
     def __init__(
         self, positive: Mapping[str, Array], others: Mapping[str, Array], layouts: Array, scale: Array | float = 1.0,
-        sizes: Mapping[str, float] = NO_LIMITS,
+        sizes: Mapping[str, float] = NOTHING,
     ) -> None:  # fmt: skip
-        self._scale, self._logarithms, self._layouts = scale, len(positive), layouts
-        self._names = [*positive, *others]
-        self._sizes = sizes
-        self._matrix = np.array([*positive.values(), *others.values()])
+        self._scale, self._logarithms, self._layouts, self._sizes = scale, len(positive), layouts, sizes
+        self._names, self._matrix = [*positive, *others], np.array([*positive.values(), *others.values()])
 
     def margins(self, figures: Mapping[str, float]) -> tuple[dict[str, float], bool]:
         """Return the margins of the limits that rejected robots, and whether all are likely kept."""
@@ -163,8 +159,9 @@ class Estimator:
     def learn(self, trials: Sequence[Trial]) -> None:
         """Fit the figures of the robots that were built, if there are enough new ones among some trials."""
         built = [] if self._space.varies_workshop else [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
-        rows = learned_rows(len(built))
-        if rows in (0, self._rows):
+        power = math.floor(math.log(len(built) / LEAST, GROWTH) + 1e-9) if len(built) >= LEAST else 0
+        rows = min(len(built), round(LEAST * GROWTH**power))
+        if len(built) < LEAST or rows == self._rows:
             return
         known = built[:rows]
         if self._like is None:  # in what is neither fitted nor follows from the design, all others are like it
@@ -228,10 +225,3 @@ class Estimator:
         asked = self._model.required(Evaluation("jump", found), others)
         score = self._objective.unrequired(asked) or 0.0
         return Estimate(score, {**margins, **asked.margins}, kept=kept and not asked.reasons)
-
-
-def learned_rows(known: int) -> int:
-    """Return how many of the `known` robots to learn: `LEAST` times the greatest power of `GROWTH`; 0 of fewer."""
-    if known < LEAST:
-        return 0
-    return min(known, round(LEAST * GROWTH ** math.floor(math.log(known / LEAST, GROWTH) + 1e-9)))

@@ -18,7 +18,6 @@ import numpy as np
 from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM
 from jumpcad.drive.spring_choice import springs_on_leg
-from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Finding, limit
 from jumpcad.mechanism.linkage import Complex
 from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere, Mechanism, RollerOff, Stop
@@ -153,13 +152,6 @@ def quick_robot(design: Design) -> Mechanism | None:
         for name, body in plain.bodies.items()
     }
     return replace(plain, bodies=bodies)
-
-
-def layout_findings(error: CannotBuildError) -> tuple[Finding, ...]:
-    """Return the limit that a refused layout missed, with its negative margin, if it was a number: it is learned."""
-    if error.margin is None:
-        return ()
-    return (Finding(error.limit, "error", error.margin, error.unit, str(error), ""),)
 
 
 def room_findings(layout: Layout, reserve_mm: float) -> tuple[Finding, ...]:

@@ -50,10 +50,6 @@ class Proposal:
         """
         return 2.0 * math.exp(min(self.log_value, 100.0)) / math.sqrt(best) if best > 0.0 else math.inf
 
-    def note(self) -> dict[str, float]:
-        """Return both logarithms, for the study file."""
-        return {"log_improvement": self.log_improvement, "log_feasible": self.log_feasible}
-
 
 def propose(
     space: Space, posterior: SearchPosterior, best: float, elite: Array, admits: Callable[[Variant], bool],

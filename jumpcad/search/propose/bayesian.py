@@ -112,11 +112,8 @@ def run_steps(
     space, start, seed = evaluator.space, len(evaluator.trials), stage.request.seed
     dry_run = DryRun(evaluator, phase, seed, stage.run) if isinstance(evaluator.model, PrintedModel) else None
     if stage.initial:
-        generator = np.random.default_rng([seed, 1])
-        if dry_run:
-            points = first_points(space, stage.initial, generator, dry_run.ranked, dry_run.starts_with)
-        else:
-            points = first_points(space, stage.initial, generator)
+        tried = (dry_run.ranked, dry_run.starts_with) if dry_run else ()
+        points = first_points(space, stage.initial, np.random.default_rng([seed, 1]), *tried)
         first = [space.to_variant(point) for point in points]
         evaluator.evaluate(first, phase, 0, limit=stage.evaluations, run=stage.run)
     left = stage.evaluations - (len(evaluator.trials) - start)
@@ -131,7 +128,9 @@ def run_steps(
         if finished is not None:
             thetas = dict(finished[-1].proposal["theta"])
         else:
-            known = known_trials(evaluator)
+            ours = {trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}
+            exact = (trial for trial in ours.values() if trial.evaluation.verdict != SCREENED)
+            known = [trial for trial in exact if space.contains(trial.variant)]
             with one_thread():
                 always = len(known) <= REFIT_AFTER and dry_run is None
                 refit = always or step % REFIT_EVERY == 1
@@ -141,7 +140,10 @@ def run_steps(
                 loop = ProposalLoop(space, learned, dry_run, thetas, refit, evaluator.unrequired)
                 proposals = proposer(loop, known, count, np.random.default_rng([seed, 2, RUN_SEED * stage.run + step]))
             thetas = loop.thetas
-            notes: list[dict[str, Any]] = [{**proposal.note(), "theta": thetas} for proposal in proposals]
+            notes: list[dict[str, Any]] = [
+                {"log_improvement": one.log_improvement, "log_feasible": one.log_feasible, "theta": thetas}
+                for one in proposals
+            ]
             if notes and loop.tried:
                 notes[0] |= {TRIED: [point.tolist() for point in loop.tried]}
             variants = [proposal.variant for proposal in proposals]
@@ -163,13 +165,6 @@ def unproposed(
     """Return a function that tells whether a variant may be proposed together with these."""
     taken = {proposal.variant.key for proposal in proposals}
     return lambda variant: variant.key not in taken and may_hold(variant) and evaluator.admits(variant)
-
-
-def known_trials(evaluator: Evaluator) -> list[Trial]:
-    """Return the trials to learn from: those of the prior study and of the evaluator in its space, each design once."""
-    trials = {trial.key: trial for trial in [*evaluator.prior, *evaluator.trials]}
-    exact = (trial for trial in trials.values() if trial.evaluation.verdict != SCREENED)
-    return [trial for trial in exact if evaluator.space.contains(trial.variant)]
 
 
 def learned_trials(space: Space, trials: Sequence[Trial]) -> list[Trial]:

@@ -5,7 +5,7 @@ the next proposal is better. All of it follows from the trials and from the poin
 resumed search goes on alike.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -59,7 +59,7 @@ class DryRun:
 
     def learn(self, trials: Sequence[Trial]) -> None:
         """Learn the robots that were built; what was tried for any of these trials is laid out once more."""
-        tried = [*self._passed_over, *self._tried(trials, ())]
+        tried = [*self._passed_over, *self.tried(trials, ())]
         self.look_at(tried)
         self.estimator.learn(trials)
         self._failures.clear()
@@ -70,10 +70,6 @@ class DryRun:
     def look_at(self, variants: Iterable[Variant]) -> None:
         """Lay out and estimate, on all cores, what was not yet."""
         self.estimator.look_at(variants, self._evaluator.shared)
-
-    def known(self, trials: Sequence[Trial], tried: Sequence[Array]) -> set[Key]:
-        """Return the keys of what was tried for `trials` and since then."""
-        return {variant.key for variant in self._tried(trials, tried)}
 
     def score(self, variant: Variant, required: bool = True) -> float | None:
         """Return the estimated score of a variant; None where it has no room, does not jump or misses a requirement.
@@ -89,22 +85,22 @@ class DryRun:
         None of another one. Whether what misses it keeps all limits is not known.
         """
         if variant.key not in self._failures:
-            self._failures[variant.key] = self._failure(variant)
+            laid, estimate = self.estimator.layout(variant), self.estimator(variant)
+            outcome: Evaluation | None = None
+            if isinstance(laid, Evaluation):
+                outcome = laid
+            elif estimate is not None and not (estimate.kept and estimate.score is not None):
+                verdict, margins = "no_takeoff" if estimate.score is None else SCREENED, estimate.margins.items()
+                findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in margins]
+                outcome = Evaluation(verdict, {}, tuple(findings))
+            place = "", 0, 0, variant.design
+            stayed = outcome and Trial(*place, outcome.bare, None, "", 0.0, {}, variant.workshop)
+            self._failures[variant.key] = stayed or None
         return self._failures[variant.key]
-
-    def _failure(self, variant: Variant) -> Trial | None:
-        laid, estimate = self.estimator.layout(variant), self.estimator(variant)
-        if isinstance(laid, Evaluation):
-            return _stayed(variant, laid)
-        if estimate is None or (estimate.kept and estimate.score is not None):
-            return None
-        margins = estimate.margins.items()
-        findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in margins]
-        return _stayed(variant, Evaluation("no_takeoff" if estimate.score is None else SCREENED, {}, tuple(findings)))
 
     def failures(self, trials: Sequence[Trial], tried: Sequence[Array]) -> list[Trial]:
         """Return the last that were tried for `trials` and since then and did not hold, as if they were trials."""
-        found = map(self.failure, [*self._passed_over, *self._tried(trials, tried)])
+        found = map(self.failure, [*self._passed_over, *self.tried(trials, tried)])
         return [one for one in found if one is not None][-FAILED:]
 
     def estimates(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Mapping[Key, tuple[Array, float]]:
@@ -112,29 +108,22 @@ class DryRun:
         if not self.estimator.ready:
             return {}
         first = [self._variant(point) for point in self.ranked[:FIRST]]
-        failures = ((one, self.failure(one)) for one in self._tried(trials, tried))
+        failures = ((one, self.failure(one)) for one in self.tried(trials, tried))
         held = [one for one, failure in failures if failure is None or failure.evaluation.verdict == SCREENED]
         jumped = [trial.variant for trial in trials if self._evaluator.unrequired(trial) is not None]
         variants = [*[*first, *held][-ESTIMATED:], *jumped]
         scores = ((one, self.score(one, required=False)) for one in variants)
         return {one.key: (self._space.to_unit(one), score) for one, score in scores if score is not None}
 
-    def _tried(self, trials: Sequence[Trial], tried: Sequence[Array]) -> Iterator[Variant]:
-        ours = (
-            trial
-            for trial in trials
-            if trial.position[:2] == (self._phase, self._run) and trial.step and trial.key not in self._prior
-        )
+    def tried(self, trials: Sequence[Trial], tried: Sequence[Array]) -> list[Variant]:
+        """Return what was tried for `trials` and since then."""
+        at = self._phase, self._run
+        ours = (one for one in trials if one.position[:2] == at and one.step and one.key not in self._prior)
         kept = (point for trial in ours for point in trial.proposal.get(TRIED, ()))
-        points = (point for point in (*kept, *tried) if len(point) == self._space.dimension)
-        yield from (self._variant(point) for point in points)
+        return [self._variant(point) for point in (*kept, *tried) if len(point) == self._space.dimension]
 
     def _variant(self, point: Sequence[float] | Array) -> Variant:
         key = tuple(point)
         if key not in self._variants:
             self._variants[key] = self._space.to_variant(point)
         return self._variants[key]
-
-
-def _stayed(variant: Variant, outcome: Evaluation) -> Trial:
-    return Trial("", 0, 0, variant.design, outcome.bare, None, "", 0.0, {}, variant.workshop)

@@ -6,8 +6,6 @@ end the links alone, with the spring unchanged. The study gives no numbers of ev
 here are a judgement.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +13,6 @@ import numpy as np
 from jumpcad.search.fronts import energy_j
 from jumpcad.search.propose.bayesian import run_bayesian
 from jumpcad.search.propose.genetic import run_genetic
-from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.request import Stage, default_initial
 from jumpcad.search.study.trial import Trial, best_trial
@@ -51,27 +48,19 @@ def run_paper(evaluator: Evaluator, stage: Stage) -> None:
     if centre is None:
         return
     for mode, (names, percent) in enumerate(((FEW, None), ((), NEAR_PERCENT), (LINKS, None))):
-        left = stage.evaluations - (len(evaluator.trials) - start)
-        share = left // (3 - mode)
-        with _inside(evaluator, space.near(centre.variant, names, percent)) as inner:
-            if inner is not None and share > 0:
-                initial = default_initial(inner, share)
-                run_bayesian(evaluator, replace(stage, evaluations=share, initial=initial, run=mode), polls=False)
-                centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))])
-        assert centre is not None
+        left, whole = stage.evaluations - (len(evaluator.trials) - start), evaluator.request
+        share, inner = left // (3 - mode), space.near(centre.variant, names, percent)
+        if inner is None or share <= 0:
+            continue
+        evaluator.request = replace(whole, space=inner, start=(), around=None)
+        part = replace(stage, evaluations=share, initial=default_initial(inner, share), run=mode)
+        try:
+            run_bayesian(evaluator, part, polls=False)
+        finally:
+            evaluator.request = whole
+        centre = best_trial([centre, *(one for one in evaluator.trials if inner.contains(one.variant))]) or centre
 
 
 def seeds(seed: int) -> list[int]:
     """Return the seeds of the runs of the genetic algorithm: other ones for every seed of a search."""
     return [int(one) for one in np.random.SeedSequence([seed, 9]).generate_state(RUNS)]
-
-
-@contextmanager
-def _inside(evaluator: Evaluator, inner: Space | None) -> Iterator[Space | None]:
-    """Let methods search a part of the evaluator's space."""
-    whole = evaluator.request
-    evaluator.request = replace(whole, space=inner or whole.space, start=(), around=None)
-    try:
-        yield inner
-    finally:
-        evaluator.request = whole

@@ -78,8 +78,17 @@ def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float
     Of a cost that is learned they are equal steps from the least to the largest of the designs that jump so far, but
     for the last one, above which nothing is.
     """
+
+    def excess(points: Array, cap_j: float) -> Array:  # 0 below a cap on the energy, 1 at 1 % above it
+        over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
+        return np.asarray(1e4 * np.clip(over, 0.0, 1e3) ** 2)
+
+    def above(points: Array, cap: float) -> Array:  # minus the logarithm of the probability that the cost is below it
+        mean, deviation = learned.predict(points)
+        return np.asarray(-log_ndtr((cap - mean) / deviation))
+
     if cost is SPRING_ENERGY:
-        return [(float(cap), partial(_excess, space, float(cap))) for cap in energy_caps_j(space)]
+        return [(float(cap), partial(excess, cap_j=float(cap))) for cap in energy_caps_j(space)]
     jumped = [cost.of(trial) for trial in trials if trial.score is not None]
     known = [(trial, cost.of(trial)) for trial in learned_trials(space, trials) if np.isfinite(cost.of(trial))]
     if not jumped or len(known) < LEAST_LEARNED:
@@ -88,19 +97,7 @@ def _caps(space: Space, cost: Cost, trials: Sequence[Trial]) -> list[tuple[float
     units = np.array([space.to_unit(trial.variant) for trial in places])
     learned = Surrogate(units, np.array(costs), None, True, space.categories)
     caps = np.linspace(min(jumped), max(jumped), CAPS)[:-1].tolist()
-    return [*((cap, partial(_above, learned, cap)) for cap in caps), (np.inf, None)]
-
-
-def _above(learned: Surrogate, cap: float, points: Array) -> Array:
-    """Return a penalty of the acquisition: minus the logarithm of the probability that the cost is below a cap."""
-    mean, deviation = learned.predict(points)
-    return np.asarray(-log_ndtr((cap - mean) / deviation))
-
-
-def _excess(space: Space, cap_j: float, points: Array) -> Array:
-    """Return a penalty of the acquisition: 0 below a cap on the energy, 1 at 1 % above it, growing smoothly."""
-    over = energies_j(space.values(points)[:, : len(PARAMETERS)]) / cap_j - 1.0
-    return np.asarray(1e4 * np.clip(over, 0.0, 1e3) ** 2)
+    return [*((cap, partial(above, cap=cap)) for cap in caps), (np.inf, None)]
 
 
 class ParetoFitness(Fitness):

@@ -8,7 +8,6 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -19,14 +18,13 @@ from jumpcad.search.propose.surrogate import Surrogate
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import EQUALS, SCREENED, Evaluation
 from jumpcad.search.study.trial import Trial, typical_size
-from jumpcad.search.study.variant import Key
+from jumpcad.search.study.variant import NOTHING, Key
 from jumpcad.transforms import Array
 
 GUESS, MORE = "guess", "more"
 """Names of the processes of guessed scores, and of what true scores are more."""
 LEAST_GUESSED = 3
 """Least trials whose score was guessed too, before guesses are learned from."""
-NO_GUESSES: Mapping[Key, tuple[Array, float]] = MappingProxyType({})
 VERDICT = "verdict"
 """A constraint for all rejections together, also those without a margin: +1 for a jump, else -1.
 
@@ -54,7 +52,7 @@ class SearchPosterior:
     @classmethod
     def from_trials(
         cls, space: Space, trials: Sequence[Trial], thetas: Mapping[str, Any], fit: bool,
-        guesses: Mapping[Key, tuple[Array, float]] = NO_GUESSES,
+        guesses: Mapping[Key, tuple[Array, float]] = NOTHING,
         score_of: Callable[[Trial], float | None] = lambda trial: trial.score,
     ) -> Self:  # fmt: skip
         """Learn from trials in a space, starting from the hyperparameters `thetas` of an earlier posterior.

@@ -16,10 +16,10 @@ import numpy as np
 from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
 from jumpcad.search.propose.initial_designs import bred
-from jumpcad.search.propose.posterior import NO_GUESSES, SearchPosterior
+from jumpcad.search.propose.posterior import SearchPosterior
 from jumpcad.search.space import Space
 from jumpcad.search.study.trial import Trial, best_trial
-from jumpcad.search.study.variant import Key, Variant
+from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.transforms import Array
 
 ROUNDS = 8
@@ -113,12 +113,16 @@ class ProposalLoop:
         if dry_run is None or best is None:
             return None
         points = neighbours(self._space, best, generator, wider)
-        points += self._bred(dry_run, generator)
+        known = dry_run.estimates(self._trials, self.tried).values()
+        held = [(score, point) for point, score in known if dry_run.failure(self._space.to_variant(point)) is None]
+        parents = [point for _, point in sorted(held, key=lambda one: -one[0])[:PARENTS]]
+        if len(parents) >= 4:  # other hills than the best's are climbed too
+            points += list(self._space.snap(bred(np.array(parents), generator).round(DIGITS)))
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
         dry_run.look_at(one for _, one in new)
-        offers, known = [], dry_run.known(self._trials, self.tried)
+        offers, before = [], {one.key for one in dry_run.tried(self._trials, self.tried)}
         for point, one in new:
-            self.tried += [] if one.key in known else [point]
+            self.tried += [] if one.key in before else [point]
             offers.append((dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
         if found is None or score < (1.0 - within) * (dry_run.score(best.variant, required=False) or math.inf):
@@ -134,19 +138,15 @@ class ProposalLoop:
         self.tried.append(proposal.unit)
         return False
 
-    def _bred(self, dry_run: DryRun, generator: np.random.Generator) -> list[Array]:
-        """Return points (d,) bred from those with the best estimates: other hills than the best's are climbed too."""
-        known = dry_run.estimates(self._trials, self.tried).values()
-        held = [(score, point) for point, score in known if dry_run.failure(self._space.to_variant(point)) is None]
-        parents = [point for _, point in sorted(held, key=lambda one: -one[0])[:PARENTS]]
-        return list(self._space.snap(bred(np.array(parents), generator).round(DIGITS))) if len(parents) >= 4 else []
-
     def _look_around(self) -> None:
         """Try the neighbours of what the last step found, if it is a leap."""
         dry_run = self._ready
         if dry_run is None or self.tried:
             return
-        found, last = _last_leap(self._trials), self._trials[-1]
+        (leap, found), last = (0.0, None), self._trials[-1]
+        for trial in self._trials:
+            if trial.score is not None and trial.score > leap * (1.0 + LEAP):
+                leap, found = trial.score, trial
         if found is None or found.position[:3] != last.position[:3]:
             return
         centre = self._space.to_unit(found.variant)
@@ -162,7 +162,7 @@ class ProposalLoop:
 
     def _learned(self) -> SearchPosterior:
         """Return the posterior of the trials and all dry runs, with what was proposed believed."""
-        trials, guesses = list(self._trials), NO_GUESSES
+        trials, guesses = list(self._trials), NOTHING
         if self._dry_run is not None:
             trials += self._dry_run.failures(self._trials, self.tried)
             guesses = self._dry_run.estimates(self._trials, self.tried)
@@ -171,15 +171,6 @@ class ProposalLoop:
         for point in self._proposed:
             posterior = posterior.condition_on(point)
         return posterior
-
-
-def _last_leap(trials: Sequence[Trial]) -> Trial | None:
-    """Return the last trial whose score was better than the leap before it by a share of `LEAP`."""
-    best, found = 0.0, None
-    for trial in trials:
-        if trial.score is not None and trial.score > best * (1.0 + LEAP):
-            best, found = trial.score, trial
-    return found
 
 
 def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: float) -> Proposal:

@@ -107,24 +107,20 @@ def _likeliest(x: Array, y: Array, start: Sequence[float] | None) -> list[float]
     """
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
-    regressor = GaussianProcessRegressor(_kernel(x.shape[1], start), alpha=JITTER, optimizer=_improve)
+    smooth = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * x.shape[1], (0.05, 10.0), nu=2.5)
+    kernel = smooth + WhiteKernel(1e-4, (1e-6, 1e-1))
+    begun = kernel if start is None else kernel.clone_with_theta(np.array(start))
+
+    def improve(objective: Callable[..., Any], at: Array, bounds: Array) -> tuple[Array, float]:
+        limits = list(map(tuple, bounds))
+        found = minimize(objective, at, method="L-BFGS-B", jac=True, bounds=limits, options={"maxiter": _FIT_STEPS})
+        return found.x, found.fun
+
+    regressor = GaussianProcessRegressor(begun, alpha=JITTER, optimizer=improve)
     with warnings.catch_warnings():
         # a length scale at its upper bound: the axis has no effect
         warnings.simplefilter("ignore", ConvergenceWarning)
         regressor.fit(x, y)
     return list(map(float, regressor.kernel_.theta))
-
-
-def _kernel(dimension: int, theta: Sequence[float] | None) -> Any:
-    from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
-
-    smooth = ConstantKernel(1.0, (1e-2, 1e3)) * Matern([0.5] * dimension, (0.05, 10.0), nu=2.5)
-    kernel = smooth + WhiteKernel(1e-4, (1e-6, 1e-1))
-    return kernel if theta is None else kernel.clone_with_theta(np.array(theta))
-
-
-def _improve(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
-    limits = list(map(tuple, bounds))
-    found = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=limits, options={"maxiter": _FIT_STEPS})
-    return found.x, found.fun

@@ -54,7 +54,11 @@ def write_study_page(store: StudyStore, name: str) -> str:
     folder = templates_folder() / "report"
     found, identity = summary(store), store.identity
     cost, is_front = described_cost(identity), identity["method"] in FRONTS
-    shown = _shown(found, cost if is_front else None)
+    shown, drawn = _shown(found, cost if is_front else None), study_figures(store, columns=1)
+    pictures = {
+        PICTURES[name]: (name, base64.b64encode(figures.svg_text(drawn[name]()).encode()).decode())
+        for name in PICTURES if name in drawn
+    }  # fmt: skip
     values = {
         "name": name, "found": found, "cost": cost, "is_front": is_front, "identity": identity,
         "style": "".join((folder / file).read_text(encoding="ascii") for file in ("style.css", "study.css")),
@@ -63,7 +67,7 @@ def write_study_page(store: StudyStore, name: str) -> str:
         "held": store.trials(), "righting": kept_righting(store, found.winner), "notes": store.notes(),
         "asked": [_asked(parameter, found.winner) for parameter in found.space.parameters],
         "best": best_values(store, found, shown), "history": history(found), "slices": slices(found, shown),
-        "parallel": parallel(found, shown), "pictures": _pictures(store), "importance": importances(store, found),
+        "parallel": parallel(found, shown), "pictures": pictures, "importance": importances(store, found),
         "rising": rising(found), "rejected": sum(trial.score is None for trial in found.trials),
         "reasons": reason_rows(found), "reason_words": figures.reason_words, "with_unit": figures.with_unit,
         "counted": counted,
@@ -106,7 +110,7 @@ def best_values(store: StudyStore, found: StudySummary, shown: Sequence[Trial]) 
         # a front ends at its highest score, a ranking starts so
         "first": len(shown) if is_front else 1,
         "candidates": found.candidates if are_candidates else [],
-        "making": Tolerances.of(store.identity).words,
+        "making": Tolerances(**store.identity.get("making") or {"length_mm": 0.0}).words,  # none without a pick
         "names": [figures.named(parameter.name).removesuffix(" (ratio)") for parameter in found.space.free],
         "poses": POSES, "links": LINKS, "edge_mm": EDGE_MM,
     }  # fmt: skip
@@ -118,15 +122,6 @@ def _shown(found: StudySummary, of_front: Cost | None) -> list[Trial]:
         best = front(found.trials, of_front)
         return [best[place] for place in evenly(len(best), MOST_SHOWN)]
     return [candidate.trial for candidate in found.candidates] or best_apart(found.space, found.trials, SHOWN)
-
-
-def _pictures(store: StudyStore) -> dict[str, tuple[str, str]]:
-    """Return the pictures of matplotlib: by title the name, and the SVG in base 64."""
-    return {
-        PICTURES[name]: (name, base64.b64encode(figures.svg_text(draw()).encode()).decode())
-        for name, draw in study_figures(store, columns=1).items()
-        if name in PICTURES
-    }
 
 
 def importances(store: StudyStore, found: StudySummary) -> dict[str, Any]:

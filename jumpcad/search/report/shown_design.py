@@ -5,13 +5,12 @@ flat foot.
 """
 
 import cmath
-import math
 import shlex
 from collections.abc import Iterable, Sequence
-from itertools import combinations
 from typing import Any
 
 import numpy as np
+from scipy.spatial.distance import pdist, squareform
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
@@ -58,8 +57,10 @@ def chart(
 
     x_values, y_values = zip(*map(place, [*feasible, *shown]), strict=True)
     axes = Axes(scale(list(x_values)), scale(list(y_values)))
-    places = [(axes.x(x), axes.y(y)) for x, y in map(place, shown)]
-    points = zip(shown, numbers, places, _radii(places), strict=True)
+    places = np.array([(axes.x(x), axes.y(y)) for x, y in map(place, shown)])
+    apart = squareform(pdist(places)) + np.diag(np.full(len(places), np.inf))
+    radii = np.clip(0.5 * apart.min(axis=0), LEAST_RADIUS, RADIUS).tolist()  # half way to the nearest neighbour
+    points = zip(shown, numbers, map(tuple, places.tolist()), radii, strict=True)
     return {
         "axes": axes,
         "others": axes.dots(place(feasible[index]) for index in evenly(len(feasible), MOST_DOTS)),
@@ -70,15 +71,6 @@ def chart(
             for number, (trial, of_study, at, radius) in enumerate(points, start=1)
         ],
     }
-
-
-def _radii(places: Sequence[tuple[float, float]]) -> list[float]:
-    """Return the radius of each point: half way to its nearest neighbour, within limits."""
-    nearest = [math.inf] * len(places)
-    for (i, one), (j, other) in combinations(enumerate(places), 2):
-        apart = math.dist(one, other)
-        nearest[i], nearest[j] = min(nearest[i], apart), min(nearest[j], apart)
-    return [min(max(0.5 * apart, LEAST_RADIUS), RADIUS) for apart in nearest]
 
 
 def shown_design(trial: Trial, of_study: int, file: str) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from jumpcad.search.study.objective import QUARANTINED, Evaluation, Objective
 from jumpcad.search.study.pool import Pool
 from jumpcad.search.study.request import Request
 from jumpcad.search.study.store import StudyStore
-from jumpcad.search.study.trial import Position, Trial, in_order
+from jumpcad.search.study.trial import Trial, in_order
 from jumpcad.search.study.variant import NOTHING, Key, Variant
 
 Watch = Callable[[Trial, bool], None]
@@ -105,15 +105,20 @@ class Evaluator:
             raise JumpcadError(
                 f"{self.store.path}: this search proposes other designs than the study holds; start a new study"
             )
+
+        def trial_of(key: Key, found: Evaluation, score: float | None) -> Trial:
+            one, (*_, place) = variants[fresh[key]], places[key]
+            return Trial(
+                phase, step, place, one.design, found.bare, score, self.model.digest, 0.0, {}, one.workshop, run
+            )
+
         new = [key for key in fresh if key not in self._finished]
-        given = {key: left_out[key] for key in new if key in left_out}
-        missing = [key for key in new if key not in given]
-        done = [self._trial(places[key], variants[fresh[key]], outcome, None) for key, outcome in given.items()]
+        done = [trial_of(key, left_out[key], None) for key in new if key in left_out]
+        missing = [key for key in new if key not in left_out]
         try:
             for outcome in self._pool.evaluate(self.model, [variants[fresh[key]] for key in missing]):
                 key = missing[outcome.index]
-                score = self.objective.score(outcome.evaluation)
-                trial = self._trial(places[key], variants[fresh[key]], outcome.evaluation, score)
+                trial = trial_of(key, outcome.evaluation, self.objective.score(outcome.evaluation))
                 note = {} if proposals is None else proposals[fresh[key]]
                 done.append(replace(trial, duration_s=outcome.duration_s, proposal=note))
         except BaseException:
@@ -126,13 +131,6 @@ class Evaluator:
         for key in fresh:
             self._add(self._finished[key], computed=key in new)
         return [self._seen.get(variant.key) for variant in variants]
-
-    def _trial(self, at: Position, variant: Variant, evaluation: Evaluation, score: float | None) -> Trial:
-        phase, run, step, place = at
-        return Trial(
-            phase, step, place, variant.design, evaluation.bare, score, self.model.digest, 0.0,
-            workshop=variant.workshop, run=run,
-        )  # fmt: skip
 
     def _commit(self, trials: list[Trial]) -> None:
         for trial in self.store.append(in_order(trials)) if trials else ():  # as a search that goes on reads them

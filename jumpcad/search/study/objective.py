@@ -94,10 +94,8 @@ class Evaluation:
 
         Ninety findings with their texts are 30 kB; who wants to read them evaluates the design again.
         """
-        margins = (-math.inf if math.isnan(one.margin) else float(f"{one.margin:.6g}") for one in self.findings)
-        kept = (
-            bare(one.name, one.severity, margin, one.unit) for one, margin in zip(self.findings, margins, strict=True)
-        )
+        margins = [-math.inf if math.isnan(one.margin) else float(f"{one.margin:.6g}") for one in self.findings]
+        kept = [bare(one.name, one.severity, to, one.unit) for one, to in zip(self.findings, margins, strict=True)]
         figures = {name: value for name, value in self.metrics.items() if -LARGEST <= value <= LARGEST}  # nor is NaN
         return replace(self, findings=tuple(kept), metrics=figures)
 
@@ -212,20 +210,19 @@ def find_objective(objective: str | Callable[..., Any]) -> Objective:
                 f"{did_you_mean(objective, OBJECTIVES) or f'; an own one is FILE{SUFFIX}:FUNCTION'}"
             )
     name, figure, code, unit = own_function(objective)
-    return Objective(name, _meaning(name, unit), unit or OWN_UNIT, figure, code)
+    return _own(name, unit, figure, code)
 
 
 def described_objective(identity: Mapping[str, Any]) -> Objective:
     """Return the objective of a study for its pictures; the function of an own one is not kept, and does not score."""
     if "objective_code" not in identity:
         return find_objective(identity["objective"])
-    name, unit = identity["objective"], identity.get("objective_unit", "")
-    return Objective(name, _meaning(name, unit), unit or OWN_UNIT, _unknown, identity["objective_code"])
+
+    def unknown(_metrics: Mapping[str, float]) -> float:
+        raise JumpcadError("the study keeps the scores of its own objective, not the function")
+
+    return _own(identity["objective"], identity.get("objective_unit", ""), unknown, identity["objective_code"])
 
 
-def _meaning(name: str, unit: str) -> str:
-    return name if unit else "own objective"
-
-
-def _unknown(_metrics: Mapping[str, float]) -> float:
-    raise JumpcadError("the study keeps the scores of its own objective, not the function")
+def _own(name: str, unit: str, figure: Callable[[Mapping[str, float]], float], code: str) -> Objective:
+    return Objective(name, name if unit else "own objective", unit or OWN_UNIT, figure, code)

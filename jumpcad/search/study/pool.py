@@ -172,8 +172,7 @@ def local_pool(workers: int | None = None, limit_s: float = 60.0) -> Pool:
 
     With 0 workers, designs are evaluated in the calling process, without a timeout.
     """
-    if workers is None:
-        workers = cores()
+    workers = cores() if workers is None else workers
     if workers < 0:
         raise JumpcadError(f"workers = {shown(workers)} must be at least 1 (0 evaluates without worker processes)")
     if workers > MOST_WORKERS:

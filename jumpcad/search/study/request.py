@@ -72,7 +72,6 @@ class Request:
             object.__setattr__(self, "model", replace(self.model, stand_in=learns, scored=scored))
         for name, value, least, most in (
             ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
-            ("seed", self.seed, 0, 2**32 - 1),
             ("batch", self.batch, 1, MOST_EVALUATIONS),
             ("until_percent", self.until_percent, 0, 100),
             ("hours", self.hours, 0, 1e6),
@@ -95,7 +94,7 @@ class Request:
                 raise JumpcadError(f"{name} = {shown(value)}: does not apply to {self.method}, only to {takers}")
         if (self.screen or self.cold) and not isinstance(self.model, PrintedModel):
             raise JumpcadError(f"{'screen' if self.screen else 'cold'}: applies to the printed robot; leave it out")
-        if self.screen and (self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring)):
+        if self.screen and (of_workshop or (self.model.workshop and self.model.workshop.bought.spring)):
             raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
         for one in self._begun(self.start):
             if outside := self.space.outside(one):
@@ -139,9 +138,8 @@ class Request:
     @property
     def left_out(self) -> str:
         """Why the design that the space is around is not evaluated; mostly nothing."""
-        around = () if self.around is None else (self.around,)
-        outside = next(map(self.space.outside, self._begun(around)), "")
-        return outside and f"around: {outside} is outside of the search, so that design is not evaluated"
+        outside = self.around and self.space.outside(self.space.begun(self.around, self.model.workshop))
+        return f"around: {outside} is outside of the search, so that design is not evaluated" if outside else ""
 
     def _begun(self, designs: Iterable[Design]) -> list[Variant]:
         return [self.space.begun(one, self.model.workshop) for one in designs]

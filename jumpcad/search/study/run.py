@@ -3,9 +3,9 @@
 The same request ends with the same trials, whether or not it was interrupted.
 """
 
-import importlib
 import json
 import math
+import pkgutil
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -118,8 +118,7 @@ def run_study(
 
 def run_stage(evaluator: Evaluator, stage: Stage) -> bool:
     """Search; the trials are the evaluator's. Return whether it ended early, as little was left to gain."""
-    module, name = STAGES[stage.method].function.split(".")
-    return bool(getattr(importlib.import_module(f"jumpcad.search.propose.{module}"), name)(evaluator, stage))
+    return bool(pkgutil.resolve_name(f"jumpcad.search.propose.{STAGES[stage.method].function}")(evaluator, stage))
 
 
 def _picked(request: Request, evaluator: Evaluator) -> tuple[list[Candidate], list[ActiveBound]]:

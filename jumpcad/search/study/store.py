@@ -9,8 +9,8 @@ import json
 import os
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager
-from functools import cache, cached_property, partial
+from contextlib import AbstractContextManager, ExitStack, closing, contextmanager
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
@@ -121,10 +121,9 @@ class StudyStore(AbstractContextManager["StudyStore"]):
                 self.path.with_name(f"{self.path.name}{end}").unlink(missing_ok=True)
 
     @property
-    def identity(self) -> dict[str, Any]:
-        """What the study is about: space, model, objective, method, seed, versions."""
-        identity: dict[str, Any] = self.recall("identity")
-        return identity
+    def identity(self) -> Any:
+        """What the study is about, as plain data: space, model, objective, method, seed, versions."""
+        return self.recall("identity")
 
     def recall(self, key: str, default: Any = None, kind: TypeAdapter[Any] | None = None) -> Any:
         """Return what was remembered under a key: of a kind that is given, else plain data of that in `REMEMBERED`."""
@@ -280,7 +279,10 @@ class StudyStore(AbstractContextManager["StudyStore"]):
                 f"{self.path}: is a study of format {version}; this version of jumpcad reads format {FORMAT}: "
                 "repeat its search with another file"
             )
-        if _tables(self._connection) != _own_tables():
+        with closing(sqlite3.connect(":memory:")) as own:
+            own.executescript(SCHEMA)
+            known = _tables(own)
+        if _tables(self._connection) != known:
             raise JumpcadError(f"{self.path}: is damaged, or was changed by another program: unknown tables")
         if self._connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
@@ -298,13 +300,6 @@ def _readable() -> Iterator[None]:
 def _tables(connection: sqlite3.Connection) -> list[tuple[str, str, str]]:
     """Return type, name and definition of everything that a database holds."""
     return connection.execute("SELECT type, name, sql FROM sqlite_master ORDER BY name").fetchall()
-
-
-@cache
-def _own_tables() -> list[tuple[str, str, str]]:
-    connection = sqlite3.connect(":memory:")
-    connection.executescript(SCHEMA)
-    return _tables(connection)
 
 
 def difference(there: Any, here: Any, name: str = "") -> str:

@@ -53,10 +53,11 @@ _PICKS, _RIGHTING = TypeAdapter(list[_Pick]), TypeAdapter(_Righting)
 def pick_run(store: StudyStore, designs: int, evaluations: int) -> int:
     """Return the number of the pick, with so many evaluations, of a search of so many designs; a new one if need be."""
     picks = store.recall(PICKS, [], _PICKS)
-    runs = [run for run, one in enumerate(picks) if (one.designs, one.evaluations) == (designs, evaluations)]
-    if not runs:
-        store.remember(PICKS, [*picks, _Pick(designs, evaluations)], _PICKS)
-    return runs[0] if runs else len(picks)
+    for run, one in enumerate(picks):
+        if (one.designs, one.evaluations) == (designs, evaluations):
+            return run
+    store.remember(PICKS, [*picks, _Pick(designs, evaluations)], _PICKS)
+    return len(picks)
 
 
 def keep_pick(store: StudyStore, run: int, candidates: list[Candidate], bounds: list[ActiveBound]) -> None:

@@ -92,11 +92,6 @@ class Tolerances:
         more = "".join(f", {name} ±{200.0 * share:.0f} %" for name, share in shares if share)
         return f"lengths ±{self.length_mm:g} mm{more}"
 
-    @classmethod
-    def of(cls, identity: Mapping[str, Any]) -> "Tolerances":
-        """Return the tolerances of a study by what it remembers; none of one without a pick."""
-        return cls(**identity.get("making") or {"length_mm": 0.0})
-
     def neighbours(self, one: Variant, generator: np.random.Generator) -> list[Variant]:
         """Return variants as they may be made.
 

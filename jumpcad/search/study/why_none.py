@@ -31,16 +31,15 @@ def why_required(trials: Sequence[Trial]) -> str:
     margins = near[0].evaluation.margins
     missed = {name: Requirement.parse(name) for name in near[0].evaluation.reasons}
     reached = ", ".join(f"{one.name} = {one.at(margins[name]):.4g}" for name, one in missed.items())
-    relaxed = " and ".join(f"{name} to {_outward(one, margins[name])}" for name, one in missed.items())
+    outward = {
+        name: Context(4, ROUND_CEILING if one.least is None else ROUND_FLOOR).create_decimal(one.at(margins[name]))
+        for name, one in missed.items()
+    }
+    relaxed = " and ".join(f"{name} to {float(to):g}" for name, to in outward.items())
     return (
         f"no design keeps what is required, but {len(near)} of {counted(len(trials), 'design')} would jump and keep "
         f"all other limits; the nearest has {reached}: relax {relaxed}, or evaluate more designs"
     )
-
-
-def _outward(one: Requirement, margin: float) -> str:
-    rounding = ROUND_CEILING if one.least is None else ROUND_FLOOR
-    return f"{float(Context(4, rounding).create_decimal_from_float(one.at(margin))):g}"
 
 
 def why_rejected(trials: Sequence[Trial], space: Space, model: RobotModel) -> list[str]:

@@ -94,14 +94,13 @@ def test_a_score_is_corrected_by_the_robots_beside_it_and_better_known_there():
     far = SPACE.to_variant(np.zeros(SPACE.dimension))
     beside, away = (screen._place(one, LAYOUT) for one in (known[3].variant, far))
     screen.learn(known[:-1])
-    few = screen._bounds(Estimate(1.0, {}), beside)
-    assert (few.score, few.least, few.most) == (1.0, 0.0, math.inf)
+    assert screen._bounds(Estimate(1.0, {}), beside) == (1.0, 0.0, math.inf)
     screen.learn(known)
-    found = screen._bounds(Estimate(1.0, {}), beside)
-    assert found.score == pytest.approx(known[3].score, rel=0.01)
-    assert found.least < known[3].score < found.most < 1.02 * found.least
-    apart = screen._bounds(Estimate(1.0, {}), away)
-    assert math.log(apart.most / apart.least) > 2.0 * math.log(found.most / found.least)
+    score, least, most = screen._bounds(Estimate(1.0, {}), beside)
+    assert score == pytest.approx(known[3].score, rel=0.01)
+    assert least < known[3].score < most < 1.02 * least
+    _, low, high = screen._bounds(Estimate(1.0, {}), away)
+    assert math.log(high / low) > 2.0 * math.log(most / least)
 
 
 def test_of_a_generation_those_are_built_that_may_be_better_than_the_best_and_than_another_s_least(monkeypatch):

@@ -84,7 +84,6 @@ def test_the_top_of_improvement_and_feasibility_together_is_proposed_with_both()
     assert found.log_improvement == pytest.approx(-10.0 * (found.unit[0] - 0.37) ** 2 - 2.5)
     assert found.log_feasible == pytest.approx(-5.0 * (found.unit[2] - 0.71) ** 2)
     assert found.log_value == found.log_improvement + found.log_feasible
-    assert found.note() == {"log_improvement": found.log_improvement, "log_feasible": found.log_feasible}
 
 
 @pytest.mark.parametrize(("less", "taken"), [(0.15, True), (0.25, False)])

@@ -35,8 +35,8 @@ class DryRun:
         no_room = Trial("", 0, 0, variant.design, Evaluation("no_room"), None, "", 0.0)
         return None if SMALL.to_unit(variant)[0] < self.half else no_room
 
-    def known(self, trials, tried):
-        return {SMALL.to_variant(point).key for point in tried}
+    def tried(self, trials, tried):
+        return [SMALL.to_variant(point) for point in tried]
 
     def look_at(self, variants):
         """What is done ahead changes nothing."""

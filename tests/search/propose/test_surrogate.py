@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from sklearn.gaussian_process import GaussianProcessRegressor
+from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
-from jumpcad.search.propose.surrogate import JITTER, Surrogate, _kernel, one_hot
+from jumpcad.search.propose.surrogate import JITTER, Surrogate, one_hot
 
 
 @pytest.fixture
@@ -17,7 +18,8 @@ def data():
 def test_predictions_are_those_of_scikit_learn(data):
     x, y = data
     ours = Surrogate(x, y)
-    theirs = GaussianProcessRegressor(_kernel(3, ours.theta), alpha=JITTER, normalize_y=True, optimizer=None).fit(x, y)
+    kernel = (ConstantKernel() * Matern([1.0] * 3, nu=2.5) + WhiteKernel()).clone_with_theta(ours.theta)
+    theirs = GaussianProcessRegressor(kernel, alpha=JITTER, normalize_y=True, optimizer=None).fit(x, y)
     points = np.random.default_rng(1).random((50, 3))
     mean, deviation = theirs.predict(points, return_std=True)
     our_mean, our_deviation = ours.predict(points)
