@@ -52,7 +52,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
     known = {part.name: part for part in before.parts} if before is not None else {}
     weighed = (
-        replace(part, drawing=drawing)
+        replace(part, shape=drawing.shape, placements=drawing.placements)
         if (part := known.get(drawing.name)) is not None and part.shape == drawing.shape
         else weighed_part(drawing, workshop)
         for drawing in drawn

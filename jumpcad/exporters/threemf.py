@@ -21,7 +21,7 @@ from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
 from jumpcad.files import templates_folder
 from jumpcad.files.templates import fill, render
-from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
+from jumpcad.parts.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.prusaslicer import project_settings
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot, decided_once

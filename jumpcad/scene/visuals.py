@@ -88,7 +88,7 @@ def _printed(robot: Robot) -> Iterator[Visual]:
     for part in robot.parts:
         for number, place in enumerate(part.placements, start=1):
             name = part.name if part.quantity == 1 else f"{part.name}_{number}"
-            colour = PRINTED_COLOURS[part.drawing.role]
+            colour = PRINTED_COLOURS[part.role]
             yield Visual(name, part.name, place.body, in_metres(place.T_body_part), colour, part)
 
 
@@ -168,7 +168,7 @@ def extent_m(robot: Robot) -> Array:
     poses = body_poses(robot)
     pieces: list[tuple[Shape, str, Array]] = [(item.shape, item.body, item.T_body_part) for item in robot.hardware]
     for part in robot.parts:
-        pieces += [(part.drawing.shape, place.body, place.T_body_part) for place in part.placements]
+        pieces += [(part.shape, place.body, place.T_body_part) for place in part.placements]
     of_bodies, of_pieces = np.array([poses[body] for _, body, _ in pieces]), np.array([pose for *_, pose in pieces])
     boxes = _boxes_m(np.array([shape.bounds_mm for shape, *_ in pieces]), of_bodies, of_pieces)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)

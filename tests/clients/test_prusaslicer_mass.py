@@ -105,7 +105,7 @@ def test_every_part_of_a_robot_agrees(tmp_path):
             continue
         stl = tmp_path / f"{part.name}.stl"
         stl.write_bytes(write_stl(part.mesh))
-        require_agreement(part.drawing.shape, stl, WORKSHOP.process.infill, WORKSHOP.materials[part.material])
+        require_agreement(part.shape, stl, WORKSHOP.process.infill, WORKSHOP.materials[part.material])
 
 
 @needs_slicer

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from jumpcad.exporters.threemf import _in_words, write_threemf
-from jumpcad.printing.plates import packed
+from jumpcad.parts.plates import packed
 from jumpcad.workshop import load_workshop
 
 SETTINGS, PICTURE = {"perimeters": "3", "fill_density": "40%"}, b"\x89PNG"

@@ -111,7 +111,7 @@ def test_a_prism_turned_anyhow_has_the_box_of_its_mesh(turn: tuple[float, float,
     exact = 0
     for part in robot.parts:
         points = part.mesh.vertices @ pose[:3, :3].T + pose[:3, 3]
-        low, high = 1000.0 * _corners_m(part.drawing.shape, in_metres(pose))
+        low, high = 1000.0 * _corners_m(part.shape, in_metres(pose))
         assert (low <= points.min(axis=0) + 0.02).all(), part.name
         assert (high >= points.max(axis=0) - 0.02).all(), part.name
         exact += np.allclose([low, high], [points.min(axis=0), points.max(axis=0)], atol=0.02)

@@ -61,9 +61,9 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     )
     drawings.append(Drawing("ring", "gears", ring, places))
     parts = tuple(
-        Part(drawing, {"links": "PETG", "body": "PLA", "gears": "PETG"}[drawing.role],
-             drawing.shape.mass_properties(DENSITY_G_CM3), "solid")
-        for drawing in drawings
+        Part(one.name, one.role, one.shape, one.placements, "PLA" if one.role == "body" else "PETG",
+             one.shape.mass_properties(DENSITY_G_CM3), "solid")
+        for one in drawings
     )  # fmt: skip
     hardware = (
         *(

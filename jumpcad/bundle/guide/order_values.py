@@ -83,7 +83,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
     return {
         "rod": cage.rod, "cut": cut, "rods": len(left), "rod_m": rod_m,
         "bar_mm": {
-            part.name.removeprefix("cage_bar_"): float(np.ptp(part.drawing.shape.bounds_mm[:, 0]))
+            part.name.removeprefix("cage_bar_"): float(np.ptp(part.shape.bounds_mm[:, 0]))
             for part in robot.parts
             if part.name.startswith("cage_bar_")
         },
