@@ -112,7 +112,7 @@ def _drawing(
         letters = letters_on(label, bare, mirrored=face == "left")
         if letters is not None:
             cut, _ = lying_stack([(*engraved_y, letters)], face)
-            stack = stack.minus(cut)
+            stack = stack.minus(cut.slabs)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
 
 
