@@ -17,8 +17,7 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.glb import BodyMotion
 from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
-from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import Trajectory

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism, body_poses
 from jumpcad.robot.cage.limits import ring_n_per_mm
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot

@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from jumpcad.files import Record, TomlTable
-from jumpcad.mechanism.model import Mechanism
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.model import Mechanism, release_pose
 
 Length = Annotated[float, Field(ge=-10, le=10)]
 Angle = Annotated[float, Field(ge=-20, le=20)]

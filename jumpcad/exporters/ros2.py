@@ -20,8 +20,7 @@ from jumpcad.exporters.steered import WHEEL, steered
 from jumpcad.exporters.urdf import cage_cylinders, tree
 from jumpcad.exporters.xml import shortened
 from jumpcad.files import templates_folder
-from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
-from jumpcad.mechanism.poses import body_poses, standing
+from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism, body_poses, standing
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Settings, coefficients

@@ -11,8 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism
-from jumpcad.mechanism.poses import ReleasePose
+from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism, ReleasePose
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.drawing import WHEEL_PARTS
 from jumpcad.robot.steering.limits import steers

@@ -20,9 +20,16 @@ from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.leg.place import PinHole, pin_hole
 from jumpcad.robot.sensor.place import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.robot.sizing import Sections, beside_leg_mm
-from jumpcad.robot.space.lateral import Lateral, lateral_stack
+from jumpcad.robot.space.inside import (
+    Lateral,
+    axle_obstacle,
+    cam_obstacles,
+    hub_obstacles,
+    lateral_stack,
+    legs_apart_mm,
+    swept_obstacles,
+)
 from jumpcad.robot.space.room import Obstacle, disc, shortfall
-from jumpcad.robot.space.sweep import axle_obstacle, cam_obstacles, hub_obstacles, legs_apart_mm, swept_obstacles
 from jumpcad.robot.springs.place import spring_boss_mm, spring_obstacles, spring_pin_place
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.robot.train.place import idler_obstacles, require_gear_room, require_shaft, train_obstacles, train_places

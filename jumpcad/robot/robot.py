@@ -1,12 +1,12 @@
-"""`Robot`: a mechanism with the printed and bought parts that it is made of, its layout, and the workshop."""
+"""`Robot`: a mechanism with its parts, layout and workshop. `Thing`: what one folder of `jumpcad.robot` offers it."""
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
 
 from jumpcad.drive.release import Release
 from jumpcad.electronics.nets import Wiring, wiring_of
@@ -14,8 +14,9 @@ from jumpcad.electronics.supply import Chosen, Supply, chosen_parts, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import DEVICE
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.parts.part import Part
+from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.layout import Layout
 from jumpcad.strength.growth import Grown
@@ -80,6 +81,35 @@ class Robot(Mechanism):
 
         def show(self) -> Path | None:
             """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """A function that returns findings, limits that are met included, and what they are about.
+
+    `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings, whose names are
+    in `basis`. A `cheap` check looks at no mesh and at no motion, takes about a millisecond, and runs for every design
+    of a search.
+    """
+
+    find: Callable[[Any], Iterable[Finding]]
+    basis: Mapping[str, Basis]
+    needs: type[Mechanism] = Robot
+    cheap: bool = True
+
+
+@dataclass(frozen=True)
+class Thing:
+    """A thing on the robot, one folder of `jumpcad.robot`.
+
+    `draw` yields its printed parts and `bought` its bought ones. `checks` are its limits. `place` returns where it is
+    on a machine that has its place already, or None where a robot goes without; the layout then has it (`Layout.of`).
+    """
+
+    draw: Callable[[Layout, Workshop], Iterable[Drawing]] = lambda layout, workshop: ()
+    bought: Callable[[Layout, Workshop], Iterable[BoughtPart]] = lambda layout, workshop: ()
+    checks: tuple[Check, ...] = ()
+    place: Callable[[Layout, Workshop], object | None] = lambda layout, workshop: None
 
 
 def decided_once(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:

@@ -14,7 +14,7 @@ import manifold3d
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot, decided_once

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.renderer import View
 from jumpcad.scene.visuals import Visual

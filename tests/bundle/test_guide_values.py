@@ -25,8 +25,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.nets import Wiring
 from jumpcad.electronics.supply import chosen_parts
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained

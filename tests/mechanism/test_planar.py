@@ -11,7 +11,7 @@ from support.each import each
 from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, Spring, body_poses
 from jumpcad.mechanism.planar import (
     ReflectedMass,
     about_common_centre,
@@ -21,7 +21,6 @@ from jumpcad.mechanism.planar import (
     reflected_mass,
     seen_from_foot,
 )
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.variants import capsule_robot
 
 

@@ -24,8 +24,8 @@ from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import layout as layout_module
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.layout import Layout, make_layout, moving_obstacles
+from jumpcad.robot.space.inside import LEVER_HEAD_MM, legs_apart_mm
 from jumpcad.robot.space.room import EVERYWHERE, disc
-from jumpcad.robot.space.sweep import LEVER_HEAD_MM, legs_apart_mm
 from jumpcad.robot.train.place import require_gear_room
 from jumpcad.workshop import load_workshop
 

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.mechanism.mass import combined
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Piece, _corners_m, extent_m, seen, surface, visuals
 from jumpcad.solids.outline import rectangle

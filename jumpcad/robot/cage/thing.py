@@ -35,7 +35,7 @@ from jumpcad.robot.cage.place import (
 )
 from jumpcad.robot.electronics.wired import TIE, TIE_G, TIE_MM
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.thing import Check, Thing
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.solids.outline import Region, disc, hull, polygon, rectangle, stadium, strips, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire

@@ -11,7 +11,7 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM, TRAY_MM
 from jumpcad.findings import higher
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.robot.space.room import EVERYWHERE, LONGER_BODY, Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.outline import Region, hole, rectangle, stadium
 from jumpcad.solids.slab import Interval

@@ -13,7 +13,7 @@ from jumpcad.robot.electronics.place import BALANCE_MM, RIM_HEIGHT_MM, SEAT_PLAY
 from jumpcad.robot.electronics.wired import electronics
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.plates.outline import tray_slots
-from jumpcad.robot.thing import Check, Thing
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.solids.outline import Region, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import Workshop

@@ -16,9 +16,8 @@ from jumpcad.findings import Basis, Finding, at_most, choose, higher, limit, low
 from jumpcad.robot.leg import bar_limits
 from jumpcad.robot.leg.drawing import leg_hardware, legs
 from jumpcad.robot.load_case import IN_PLANE, LANDING, PUSH_OFF, WEAKER, load_case, stress_finding
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Check, Robot, Thing
 from jumpcad.robot.sizing import leg_flex_share
-from jumpcad.robot.thing import Check, Thing
 from jumpcad.strength.stress import (
     STATIONS,
     Beam,

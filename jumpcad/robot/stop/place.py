@@ -16,8 +16,8 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, higher, lower
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot.sizing import Sections
+from jumpcad.robot.space.inside import legs_apart_mm
 from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, shortfall
-from jumpcad.robot.space.sweep import legs_apart_mm
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop.workshop import STOP_PAD_MIN_MM

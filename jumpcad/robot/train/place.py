@@ -12,7 +12,7 @@ from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy
 from jumpcad.robot.space import room as rooms
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 

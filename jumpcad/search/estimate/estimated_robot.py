@@ -25,7 +25,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere,
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.space.inside import legs_apart_mm
 from jumpcad.scene.visuals import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
