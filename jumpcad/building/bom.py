@@ -33,7 +33,7 @@ DUST = ("gloves", "mask (FFP2)", "sandpaper")
 
 def used_up(robot: Robot) -> tuple[str, ...]:
     """Return the names of what the guide tells the builder to use up."""
-    layout, parts = robot.layout, robot.electrical_parts.components
+    layout, parts = robot.layout, robot.layout.electronics.components
     found = list(ALWAYS)
     if "plug" in parts:
         found.append("second battery and socket like the robot's, leads insulated")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
 
 from jumpcad.drive.release import Release
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import Chosen, Supply, chosen_parts, supply_of
+from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import DEVICE
@@ -48,19 +48,14 @@ class Robot(Mechanism):
     grown: tuple[Grown, ...] = field(default=(), compare=False)
 
     @cached_property
-    def electrical_parts(self) -> Chosen:
-        """Battery, boards and small electrical parts of its workshop."""
-        return chosen_parts(self.workshop)
-
-    @cached_property
     def supply(self) -> Supply:
         """Voltages and currents of its battery and boards."""
-        return supply_of(self.electrical_parts)
+        return supply_of(self.layout.electronics)
 
     @cached_property
     def wiring(self) -> Wiring:
         """The net list of its electrical parts."""
-        return wiring_of(self.electrical_parts, self.workshop.bought.pins, self.workshop.steering.wheel != "none")
+        return wiring_of(self.layout.electronics, self.workshop.bought.pins, self.workshop.steering.wheel != "none")
 
     def __copy__(self) -> Self:
         """Return the robot itself: it does not change."""

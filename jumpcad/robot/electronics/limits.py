@@ -47,7 +47,7 @@ BASIS = {
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `supply_voltage_*`, `motor_current_*`, `gearbox_torque`, `charging_current` and `wiring_*`."""
-    chosen = robot.electrical_parts
+    chosen = robot.layout.electronics
     supply = robot.supply
     for link in links(robot):
         yield _voltage(link)
@@ -59,7 +59,7 @@ def electronics_findings(robot: Robot) -> Iterator[Finding]:
 
 def links(robot: Robot) -> list[Link]:
     """Return the chain of a robot, from the regulator to the winding."""
-    chosen, train = robot.electrical_parts, robot.layout.drive.train
+    chosen, train = robot.layout.electronics, robot.layout.drive.train
     torque_max = robot.workshop.safety.motor_torque_max_nm
     return list(chain(chosen, train.motor, robot.supply, train.peak_current_a, torque_max))
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import Chosen, chosen_parts
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.purchased import BoughtPart, bought, box_outline, placed_box, placed_screw
 from jumpcad.robot.electronics.fittings import HOLE_HALF_MM, HOLE_MM, RELIEF_APART_MM, RELIEF_UP_MM, SWITCH_SCREWS_MM
@@ -53,13 +52,12 @@ def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
         else:
             yield placed_box(f"tie_{role}", TIE, *at, top, TIE_MM[0], width, TIE_MM[1], TIE_G)
     yield from _switch(layout, workshop.catalogue)
-    parts = chosen_parts(workshop)
-    wiring = wiring_of(parts, workshop.bought.pins, workshop.steering.wheel != "none")
+    wiring = wiring_of(electronics, workshop.bought.pins, workshop.steering.wheel != "none")
     placed = {*items, "sensor" if layout.sensor else "", "switch" if layout.fittings.switch_mm is not None else ""}
-    found = list(_soldered(layout, parts, wiring, placed))
+    found = list(_soldered(layout, wiring, placed))
     small = [name for name, *_ in found if name.startswith(SMALL)]
     # along the row of pads beside them, so that their legs do not cross
-    inwards, row = electronics.inwards("controller"), _along_the_row(electronics, parts, wiring)
+    inwards, row = electronics.inwards("controller"), _along_the_row(electronics, wiring)
     seats = sorted(electronics.small_seats(inside)[: len(small)], key=lambda seat: inwards * seat.y_mm)
     at_seat = dict(zip(sorted(small, key=lambda name: row.get(name, 0)), seats, strict=False))
     soldered = []
@@ -87,9 +85,10 @@ def electronics(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
         yield bought(f"tie_{role}_leads", TIE, BODY, TIE_G, slabs, at_mm)
 
 
-def _along_the_row(electronics: Electronics, parts: Chosen, wiring: Wiring) -> dict[str, int]:
+def _along_the_row(electronics: Electronics, wiring: Wiring) -> dict[str, int]:
     """Return the place of each small part's pad in the controller's row that faces them, USB first."""
-    row = parts.controller.left if electronics.inwards("controller") > 0.0 else parts.controller.right
+    board = electronics.controller
+    row = board.left if electronics.inwards("controller") > 0.0 else board.right
     return {
         "_".join(reversed(part.part.replace("-", "_").split())): row.index(pad.pin)
         for net in wiring.nets
@@ -99,16 +98,16 @@ def _along_the_row(electronics: Electronics, parts: Chosen, wiring: Wiring) -> d
     }
 
 
-def _soldered(layout: Layout, parts: Chosen, wiring: Wiring, placed: set[str]) -> Iterator[tuple[str, str, float]]:
+def _soldered(layout: Layout, wiring: Wiring, placed: set[str]) -> Iterator[tuple[str, str, float]]:
     """Yield name, article and mass (g) of what has no seat: wire by its colour, and what is soldered into it."""
-    for role, part in parts.components.items():
+    for role, part in layout.electronics.components.items():
         if role == "wire":
             per_m = 1000.0 * part.mass_g / (part.length_mm or WIRE_LENGTH_MM)
             for colour, metres in metres_by_colour(layout, wiring).items():
                 article = f"{part.description}, {colour}, {math.ceil(10.0 * metres - 1e-6) / 10.0:g} m"
                 yield f"wire_{colour}", article, per_m * metres
             yield "heat_shrink", HEAT_SHRINK, HEAT_SHRINK_G
-        elif role not in placed and (role != "diode" or parts.regulator is not None):
+        elif role not in placed and (role != "diode" or layout.electronics.regulator is not None):
             yield role, part.description, part.mass_g
     for name, ohm in wiring.resistors.items():
         which = name.removesuffix(" resistor").replace("-", "_")
