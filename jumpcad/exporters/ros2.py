@@ -131,10 +131,10 @@ def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], me
 
 def capsules(mechanism: Mechanism, body: str) -> Iterator[Capsule]:
     """Yield the capsules of a link; the foot has one for each toe too, the body none."""
-    design, origin = mechanism.design, np.zeros(3)
+    origin = np.zeros(3)
     radius = round(SLIM * mechanism.foot_depth_m, 6)
-    lengths = dict(zip(BODY_NAMES, (0.0, design.l2_mm, design.l3_mm, design.l4_mm), strict=True))
-    if lengths.get(body):
+    lengths = dict(zip(BODY_NAMES[1:], mechanism.design.links_mm, strict=False))
+    if body in lengths:
         yield Capsule(origin, np.array([lengths[body] / 1000.0, 0.0, 0.0]), radius)
     for toe in (one for one in mechanism.bodies[body].contacts if one.surface == "foot" and one.centre_m[0] < 0.0):
         yield Capsule(origin, np.round(toe.centre_m, 6), min(radius, round(SLIM_TOE * toe.radius_m, 6)))

@@ -16,7 +16,8 @@ from pydantic import Field, StrictFloat, StrictInt
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.files.records import Text
-from jumpcad.findings import Ways, lower
+from jumpcad.findings import lower
+from jumpcad.mechanism.linkage import SHORTER_BODY, SMALLER_LINKS
 from jumpcad.mechanism.mass import MassProperties
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
@@ -32,14 +33,8 @@ SHAPES_KEPT = 400
 """Shapes of which solids and meshes are kept, those of some 15 robots: most parts are those of the robot before."""
 ROUND_OFF_MM = 1e-6
 
-SMALLER: dict[str, Ways] = {
-    "main_leg": lower("carrying_link_mm"),
-    "front_link": lower("carrying_link_mm", "c_coef"),
-    "foot": lower("carrying_link_mm", "d_coef", "e_coef"),
-    "toe": lower("carrying_link_mm", "e_coef"),
-    "body_plate": (*lower("carrying_link_mm", "d_coef"), "choose a smaller battery or boards"),
-    "cage_bar": lower("cage.rear_radius_mm", "cage.front_radius_mm"),
-}
+SMALLER = SMALLER_LINKS | {"cage_bar": lower("cage.rear_radius_mm", "cage.front_radius_mm")}
+SMALLER_BODY = (*SHORTER_BODY, "choose a smaller battery or boards")
 """What to change where a part is too large, by the beginning of its name; other parts are the body's."""
 CAGED = (*lower("cage.front_ahead_mm", "cage.rear_behind_mm", note="shorter horns"), 'no cage (cage.rod = "")')
 
@@ -79,7 +74,7 @@ def require_bed(
     if found.margin_mm < -ROUND_OFF_MM:
         size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
         horns = CAGED if caged and name.startswith("body_plate") else ()
-        smaller = next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER["body_plate"])
+        smaller = next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER_BODY)
         raise CannotBuildError(
             f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm",
             "bed", found.margin_mm, ways=("choose a larger printer in the workshop", *horns, *smaller),

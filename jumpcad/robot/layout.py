@@ -13,8 +13,7 @@ from jumpcad.design import Design
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import higher, lower
-from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.linkage import LEGS_APART, Linkage, toe_tip_mm
 from jumpcad.robot.electronics.fittings import Fittings, electronics_obstacle, fittings_of, standoff_places, tray_place
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.leg.place import PinHole, pin_hole
@@ -213,5 +212,5 @@ def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> 
         raise CannotBuildError(
             f"main leg and front link {lie} {abs(apart_mm):.2g} mm; {gap_mm:g} mm between them are needed, "
             f"{shortfall(room)} more than there is",
-            "legs_apart", room, ways=lower("compression_ratio") + higher("d_coef", "rest_angle_deg"),
+            "legs_apart", room, ways=LEGS_APART,
         )  # fmt: skip

@@ -167,7 +167,7 @@ def _bars(robot: Robot, bill: Bill) -> dict[str, Any] | None:
         "cut": cut,
         "long_mm": 10.0 * math.ceil(sum(count * (length + SAW_MM) for count, length in cut) / 10.0),
         "off_mm": (END_PLAY_MM, BAR_SHORT_MM),
-        "eyes_mm": (layout.design.l2_mm, layout.design.l3_mm),
+        "eyes_mm": layout.design.links_mm[:2],
         "eyes_off_mm": EYES_OFF_MM,
     }
 

@@ -9,10 +9,11 @@ import numpy as np
 from jumpcad.catalogue import Component
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM, TRAY_MM
 from jumpcad.findings import higher
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
 from jumpcad.robot.space.inside import Lateral
-from jumpcad.robot.space.room import EVERYWHERE, LONGER_BODY, Obstacle, best_place, box_obstacle, disc, grid_candidates
+from jumpcad.robot.space.room import EVERYWHERE, Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.outline import Region, hole, rectangle, stadium
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array

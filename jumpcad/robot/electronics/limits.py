@@ -8,12 +8,13 @@ import numpy as np
 
 from jumpcad.electronics.supply import Chosen, Link, Supply, chain
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, limit
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.robot.electronics import wiring
 from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.layout import moving_obstacles
 from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.room import LONGER_BODY, bar, clearance
+from jumpcad.robot.space.room import bar, clearance
 
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"

@@ -11,6 +11,7 @@ from jumpcad.drive import Drive
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.robot.space import room as rooms
 from jumpcad.robot.space.inside import Lateral
 from jumpcad.solids.slab import Interval
@@ -95,7 +96,7 @@ def train_places(
 
 def _smaller(motor: Motor) -> Remedy:
     smaller = f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
-    return (*rooms.LONGER_BODY, smaller)
+    return (*LONGER_BODY, smaller)
 
 
 def _idler_places(obstacles: list[rooms.Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array) -> Array:
