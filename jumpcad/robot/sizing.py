@@ -187,14 +187,14 @@ def _socket_mm(workshop: Workshop) -> tuple[float, float]:
     return in_hundredths(bar.height_mm + gap + 2.0 * fits.wall_mm), bar.width_mm + gap + 2.0 * fits.wall_min_mm
 
 
-def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring | None = None) -> float:
+def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring) -> float:
     """Return the energy that bends the leg at release as a share of the springs'.
 
     The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
-    leg a little beyond the hub. Without springs they are the design's.
+    leg a little beyond the hub.
     """
-    springs = springs or springs_on_leg(design)
-    energy = tapered_energy_nmm(leg, 1000.0 * springs.peak_torque_nm, design.l2_mm, modulus_mpa)
+    stiffness = np.asarray(modulus_mpa * leg.second_moment_mm4)
+    energy = tapered_energy_nmm(stiffness, 1000.0 * springs.peak_torque_nm, design.l2_mm)
     return energy / (1000.0 * springs.energy_j)
 
 

@@ -15,7 +15,7 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
-from jumpcad.mechanism.model import BODY, Mechanism, Spring, Stop
+from jumpcad.mechanism.model import BODY, Body, Mechanism, Spring, Stop
 from jumpcad.transforms import Array, turned_about_y
 
 POSITIONS = 17
@@ -33,6 +33,12 @@ class MovingMass:
     mass_kg: float
     com_mm: Array
     gyration_mm: float
+
+    @classmethod
+    def of(cls, body: Body) -> "MovingMass":
+        """Return that of a robot's body."""
+        gyration_mm = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
+        return cls(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration_mm)
 
 
 @dataclass(frozen=True)
@@ -128,16 +134,6 @@ def _moment(arm: Array, force: Array) -> Array:
     return arm[:, 1] * force[:, 0] - arm[:, 0] * force[:, 1]
 
 
-def landing_force_n(design: Design, mass_kg: float, stop_mm: float, rise_m: float | None = None) -> float:
-    """Return the mean force that stops a falling robot over a distance, m·g·(drop + stop)/stop.
-
-    Without the rise of a simulated jump, all of the springs' energy is assumed to become height.
-    """
-    weight = mass_kg * GRAVITY_M_S2
-    drop = 1000.0 * design.spring_energy_j if rise_m is None else 1000.0 * weight * rise_m
-    return drop / stop_mm + weight
-
-
 def reflected_share(arm_mm: tuple[float, float], gyration_mm: tuple[float, float]) -> float:
     """Return the effective share of a body's mass in a vertical impact at arms x, y from its centre of mass.
 
@@ -183,10 +179,8 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
     friction = mechanism.friction
     if friction is None or coefficient == 0.0:
         return 0.0
-    linkage, body = mechanism.linkage, mechanism.bodies[BODY]
-    gyration_mm = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
-    mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], float(gyration_mm))
-    loads = push_off(linkage, mass, mechanism.spring)
+    linkage = mechanism.linkage
+    loads = push_off(linkage, MovingMass.of(mechanism.bodies[BODY]), mechanism.spring)
     leg, front, ankle, eye = friction.pin_radius_m
     foot_rate, front_rate = linkage.turning(loads.leg_rad)
     on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)

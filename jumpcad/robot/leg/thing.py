@@ -92,7 +92,7 @@ def leg_findings(robot: Robot) -> Iterator[Finding]:
     stress = float(front.stress_mpa(0.0, case.front_n))
     yield stress_finding("front_link_strength", "front link along its length at release", stress, most, WEAKER, "front")
     if layout.leg_bar is None:  # else `front_bar_buckling`
-        load = buckling_load_n(front, layout.design.l3_mm, links.modulus_mpa)
+        load = buckling_load_n(front.second_moment_mm4, layout.design.l3_mm, links.modulus_mpa)
         allowed = load / case.workshop.safety.printed_factor
         yield at_most(
             "front_link_buckling", case.landing_n, allowed, "N",
