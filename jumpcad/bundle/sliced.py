@@ -15,7 +15,7 @@ from jumpcad.bundle.guide.markdown import with_bill
 from jumpcad.bundle.manifest import WORKSHOP, Bundle, few, kept_workshop, open_bundle, verify
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
+from jumpcad.printing.prusaslicer import Sliced, slice_model, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import CrossSections
@@ -104,7 +104,7 @@ def slice_bundle(
     for line in printed:
         tell(line["name"])
         stl, material = bundle.file(f"stl/{line['name']}.stl"), workshop.materials[line["material"]]
-        sliced = slice_part(stl, workshop.printer, workshop.process, material)
+        sliced = slice_model(stl, workshop.printer, workshop.process, material)
         ignored |= sliced.ignored
         modelled = _modelled_grams(stl, workshop, material)
         parts.append(
@@ -112,7 +112,7 @@ def slice_bundle(
         )
     for path, name, material_name in _plates(bundle):
         tell(name)
-        sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
+        sliced = slice_model(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
         plates.append(SlicedPlate(name, material_name, _grams(path, sliced), sliced.time_s))
     billed = workshop == built_in and {BOM, ORDER} <= set(bundle.files)

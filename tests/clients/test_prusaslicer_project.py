@@ -11,7 +11,7 @@ from support.gcode import read_gcode
 
 from jumpcad.exporters.threemf import plate_files
 from jumpcad.parts.part import Drawing, Part, Placement, upright
-from jumpcad.printing.prusaslicer import slice_plate, slicer_program, slicer_settings
+from jumpcad.printing.prusaslicer import slice_model, slicer_program, slicer_settings
 from jumpcad.solids.outline import hole, rectangle, stadium
 from jumpcad.solids.stack import Stack
 from jumpcad.workshop import Workshop, load_workshop
@@ -61,7 +61,7 @@ def test_it_prints_with_the_workshops_settings(shop: str, material: str, tmp_pat
     asked = slicer_settings(workshop.printer, workshop.process, workshop.materials[material])
     wanted = {key: value for key, value in asked.items() if key not in LEFT_OUT}
     assert {key: used.get(key) for key in wanted} == wanted
-    modelled = slice_plate(file, workshop.printer, workshop.process, workshop.materials[material])
+    modelled = slice_model(file, workshop.printer, workshop.process, workshop.materials[material])
     assert float(used["filament used [g]"]) == pytest.approx(modelled.grams, abs=0.01)
 
 
@@ -82,8 +82,8 @@ def test_settings_that_are_given_take_the_place_of_the_files(tmp_path: Path) -> 
     workshop = load_workshop()
     file = plate(workshop, "PETG", tmp_path)
     process = workshop.process.model_copy(update={"perimeters": 1, "infill": 0.1})
-    thin = slice_plate(file, workshop.printer, process, workshop.materials["PETG"])
-    thick = slice_plate(file, workshop.printer, workshop.process, workshop.materials["PETG"])
+    thin = slice_model(file, workshop.printer, process, workshop.materials["PETG"])
+    thick = slice_model(file, workshop.printer, workshop.process, workshop.materials["PETG"])
     assert thin.ignored == {}
     assert thin.grams < 0.8 * thick.grams
 
