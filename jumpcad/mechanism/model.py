@@ -11,6 +11,7 @@ import cmath
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -29,6 +30,9 @@ from jumpcad.mechanism.multibody import Stop as Stop
 from jumpcad.mechanism.multibody import Surface as Surface
 from jumpcad.transforms import Array, ByValue, pose_at, rotation_about_y
 
+BodyName = Literal["body", "main_leg", "front_link", "foot"]
+JointName = Literal["leg", "front", "ankle"]
+JOINT_NAMES: tuple[JointName, ...] = ("leg", "front", "ankle")
 BODY, MAIN_LEG, FRONT_LINK, FOOT = BODY_NAMES = ("body", "main_leg", "front_link", "foot")
 JOINT_SPEED_RAD_S = 100.0
 """Joint speed at which PyBullet limits joints; releases of light designs reach it (measured)."""
@@ -130,7 +134,7 @@ class ReleasePose(ByValue):
     joint_rad: dict[str, float]
     body_position_m: Array
     body_pitch_rad: float
-    joint_rad_s: dict[str, float] = field(default_factory=lambda: {"leg": 0.0, "front": 0.0, "ankle": 0.0})
+    joint_rad_s: dict[str, float] = field(default_factory=lambda: dict.fromkeys(JOINT_NAMES, 0.0))
     body_m_s: Array = field(default_factory=lambda: np.zeros(3))
     body_rad_s: float = 0.0
 
