@@ -37,11 +37,7 @@ def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPa
     for item in hardware:
         carried[item.body].append(item.mass)
     contacts = _contacts(layout)
-    bodies = {}
-    for name in BODY_NAMES:
-        mass = combined(carried[name])
-        bodies[name] = Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts.get(name, ()))
-    return bodies
+    return {name: Body.of(name, combined(carried[name]), contacts.get(name, ())) for name in BODY_NAMES}
 
 
 def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Complex]:

@@ -120,7 +120,7 @@ def _taken_wheel(root: ET.Element) -> MassProperties | None:
         links[0].remove(collision)
     wheel, (origin_m, rpy) = _body(links[0], {}), _origin(joints[0], f"joint {STEER}")
     place = pose_at(Rotation.from_euler("xyz", rpy).as_matrix(), origin_m)
-    return MassProperties(wheel.mass_kg, wheel.com_m, wheel.inertia_kg_m2).placed(place)
+    return wheel.placed(place)
 
 
 def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | None = None) -> model.Body:
@@ -147,7 +147,7 @@ def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | No
         raise JumpcadError(f"{name}: two collisions have the same name")
     mass = MassProperties(mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes))
     mass = combined([mass, wheel]) if wheel and name == model.BODY else mass
-    return model.Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
+    return model.Body.of(name, mass, contacts)
 
 
 def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:

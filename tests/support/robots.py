@@ -84,7 +84,7 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     for title, items in pieces.items():
         whole = combined(items)
         contacts = capsules.bodies[title].contacts
-        bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
+        bodies[title] = Body.of(title, whole, contacts)
     workshop = load_workshop()
     whole_robot = build(design, workshop, name="")
     return Robot(
