@@ -131,7 +131,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         toes_apart=not in_one_piece(design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, workshop.bought)),
-        sensor=_sensor_needs(workshop, carried, settled.drive), switch=carried.components.get("switch"),
+        sensor=_sensor_needs(workshop, carried, settled.drive),
     )  # fmt: skip
 
 

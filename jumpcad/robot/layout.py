@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from jumpcad import dimensions
-from jumpcad.catalogue import Bearing, Component, LegBar
+from jumpcad.catalogue import Bearing, LegBar
 from jumpcad.design import Design
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import cap_ear_mm
@@ -129,7 +129,7 @@ class Layout:
 def make_layout(
     linkage: Linkage, sections: Sections, drive: Drive, electronics: Electronics, workshop: Workshop, *,
     hub_bearing: Bearing | None, roller: Bearing, toes_apart: bool, plate_mm: float, leg_pin_hole_mm: float,
-    sensor: SensorNeeds | None = None, switch: Component | None = None,
+    sensor: SensorNeeds | None = None,
 ) -> Layout:  # fmt: skip
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
@@ -181,9 +181,7 @@ def make_layout(
     obstacles += [disc("standoff", place, dimensions.STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
     beside = [*seats.values(), stop.tab_mm]
     boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
-    fittings = fittings_of(
-        obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + dimensions.PAD_WALL_MM
-    )
+    fittings = fittings_of(obstacles, lateral, electronics, tray, beside, axle_mm / 2.0 + dimensions.PAD_WALL_MM)
     return Layout(
         linkage=linkage, sections=sections, drive=drive, lateral=lateral, electronics=electronics,
         hub_bearing=hub_bearing, toes_apart=toes_apart, axle_mm=axle_mm, retention=bought.retention,

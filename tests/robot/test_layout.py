@@ -70,7 +70,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "workshop": load_workshop("default"), "roller": load_workshop("default").catalogue.bearings["623"],
         "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6),
-        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "switch": layout.fittings.switch,
+        "leg_pin_hole_mm": layout.pin_hole.diameter_mm,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
     assert spring.arms.pin_radius_mm == layout.leg_pin_mm
