@@ -79,7 +79,7 @@ def leg_findings(robot: Robot) -> Iterator[Finding]:
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(Beam(sections.thickness_mm, heights, case.shell), case.torque_nmm, along)
     yield stress_finding("lever_strength", "lever in bending, springs loaded", stress, most, WEAKER, "lever")
-    if layout.leg_bar is None:  # else `leg_bar_flex`
+    if layout.leg_bar is None:
         share = leg_flex_share(layout.design, leg, links.modulus_mpa, robot.spring)
         allowed = case.workshop.safety.leg_flex_share
         yield limit(
@@ -87,7 +87,8 @@ def leg_findings(robot: Robot) -> Iterator[Finding]:
             f"{100 * share:.1f} % of the springs' energy bends the main leg at release; {100 * allowed:g} % are "
             "allowed", WEAKER, value=100.0 * share, allowed=100.0 * allowed, grows="leg",
         )  # fmt: skip
-    yield from bar_limits.leg_bar_findings(case)
+    else:
+        yield from bar_limits.leg_bar_findings(case)
     front = sections.front(case.shell)
     stress = float(front.stress_mpa(0.0, case.front_n))
     yield stress_finding("front_link_strength", "front link along its length at release", stress, most, WEAKER, "front")
