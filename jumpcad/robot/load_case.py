@@ -123,7 +123,7 @@ class LoadCase:
     @cached_property
     def forces(self) -> loads.PushOffForces:
         """Forces of the push-off, with the body's mass and inertia."""
-        return loads.push_off(self.robot.linkage, loads.MovingMass.of(self.robot.bodies[BODY]), self.robot.spring)
+        return loads.push_off(self.robot.linkage, self.robot.bodies[BODY], self.robot.spring)
 
     @cached_property
     def toes_n(self) -> float:
