@@ -69,6 +69,8 @@ def _cam_limits(workshop: Workshop, roller: Bearing, sections: Sections) -> CamL
         roller_radius_mm=roller.outer_mm / 2.0, roller_load_n=roller.static_load_n / safety.load_factor,
         cam_width_mm=roller.width_mm, gap_min_mm=lever_eye + SPACER_RADIUS_MM + CLEAR_MM,
         core_radius_mm=sections.dog_mm / 2.0, modulus_mpa=gears.modulus_mpa, play_rad=workshop.release.play_rad,
+        lift_rad=CamLimits.lift_rad + math.radians(workshop.release.ease_deg) / 2.0,  # at the same torque
+        ease_rad=math.radians(workshop.release.ease_deg),
         overshoot_rad=math.radians(workshop.body.stop_deg) + GIVE_ROOM_RAD,
         pressure_mpa=CamLimits.pressure_mpa / math.sqrt(safety.load_factor),  # of a line contact, with the force's root
         shakedown_mpa=4.0 / math.sqrt(3.0) * gears.strength_in_plane_mpa, clearance_mm=GAP_MM + safety.gap_reserve_mm,

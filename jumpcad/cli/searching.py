@@ -82,6 +82,9 @@ class OptimizeOptions(SearchOptions):
         Text, option("The design from which --only and --within start; it is evaluated first.", "DESIGN")
     ] = None
     start: Annotated[Texts, option("A design to begin with; may be repeated.", "DESIGN")] = None
+    cold: Annotated[
+        bool, option("Begin without the shipped designs, the best of which are else among the first.", None, "--cold")
+    ] = False
     only: Annotated[Text, option("Search these parameters only; the others as in --around.", "NAME,…")] = None
     within: Annotated[float | None, option("Search within ± this percentage of each range.", "PERCENT")] = None
     preset: Annotated[str, option("Settings of the genetic algorithm: recommended or published.")] = "recommended"
@@ -110,7 +113,7 @@ class OptimizeOptions(SearchOptions):
         return [
             search.Request(
                 space, robot, self.objective, method, evaluations, seed, self.preset, self.batch, self.from_study,
-                self.until, self.hours, self.screen, self.against, begun, centre,
+                self.until, self.hours, self.screen, self.against, begun, centre, self.cold,
             )
             for method in methods for seed in seeds
         ]  # fmt: skip

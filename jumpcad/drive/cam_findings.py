@@ -86,8 +86,9 @@ LIMITS = (
     Limit(
         "cam_drop", "rad", 0.1, _SMALLER,
         Basis(
-            f"{_LIFT} of lift + max(roll-over, the dog's play + 3°) + {_RESERVE} ≤ 360°; roll-over: cam angle from "
-            "the end of the lift until the roller, on its arc about the hub, passes the corner with the clearance",
+            f"{_LIFT} + release.ease_deg/2 of lift + max(roll-over, the dog's play + 3°) + {_RESERVE} ≤ 360°; "
+            "roll-over: cam angle from the end of the lift until the roller, on its arc about the hub, passes the "
+            "corner with the clearance",
             f"{_PITCH}; {_LIFT}, 3° and {_RESERVE}: judgement",
         ),
     ),

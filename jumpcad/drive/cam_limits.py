@@ -37,7 +37,8 @@ class CamLimits:
       shakes down to an elastic state up to 4k, k the yield strength in shear (Johnson, Contact Mechanics, 9.2): 104 MPa
       for a printed PETG that yields at 45 MPa in tension (judgement), less 15 %.
     - `shakedown_mpa`: The same 4k without reserve, at which a worn corner stays as it is.
-    - `lift_rad`, `ramp_rad`: Cam angle of the lift and of its ramp; what is left of the turn is for release and drop.
+    - `lift_rad`, `ramp_rad`, `ease_rad`: Cam angle of the lift, of its ramp and of its end, at which the torque falls;
+      what is left of the turn is for release and drop.
       Judgement: a longer ramp costs torque, a shorter one a larger cam.
     - `hub_radius_mm`, `clearance_mm`: Radius of what is around the leg's pivot in the cam's plane, and its gap to the
       cam. Leg and lever lie beside that plane; a spring's coil that is larger replaces the default, a bushing on a 3 mm
@@ -67,6 +68,7 @@ class CamLimits:
     shakedown_mpa: float = 104.0
     lift_rad: float = math.radians(310)
     ramp_rad: float = math.radians(30)
+    ease_rad: float = 0.0
     hub_radius_mm: float = 4.5
     clearance_mm: float = GAP_MM
     pressure_angle_rad: float = math.radians(45)
@@ -174,11 +176,15 @@ def measure(law: CamLaw, limits: CamLimits, shapes: Array, samples: int) -> tupl
 def _sampled(law: CamLaw, samples: int) -> tuple[Array, Array, Array]:
     """Return a law's leg angle and its derivatives (samples,) over the lift; a search needs the same ones often.
 
-    The second derivative jumps where the ramp ends: the sharpest curvature is just after it.
+    The second derivative jumps where the ramp ends, just after which the curvature is sharpest, and where the torque
+    begins to fall.
     """
+    even, ease = samples - samples // 4, samples // 4 if law.ease_rad else 0
     ramp = np.linspace(0.0, law.ramp_rad, samples // 4, endpoint=False)
-    rest = law.ramp_rad + (law.lift_rad - law.ramp_rad) * np.linspace(0.0, 1.0, samples - samples // 4) ** 2
-    return law.derivatives(np.concatenate([ramp, rest]))
+    constant = law.lift_rad - law.ease_rad - law.ramp_rad
+    rest = law.ramp_rad + constant * np.linspace(0.0, 1.0, even - ease, endpoint=not ease) ** 2
+    end = law.lift_rad - law.ease_rad * np.linspace(1.0 - 1e-9, 0.0, ease)
+    return law.derivatives(np.concatenate([ramp, rest, end]))
 
 
 def axis_range(law: CamLaw, limits: CamLimits, axis: Array, lead: Array, outer: Array) -> tuple[Array, Array]:

@@ -139,10 +139,12 @@ def lift_s(law: CamLaw, motor: Motor, ratio: float, efficiency: float, cam_rad: 
 
 
 def _unloaded_rad(law: CamLaw, motor: Motor, gain: float, cam_rad: float) -> float:
-    """Return how far an unloaded cam turns while the loaded one turns to an angle of its lift: ramp, then constant."""
+    """Return how far an unloaded cam turns while the loaded one turns to an angle of its lift: up, constant, down."""
     share = law.peak_torque_nm / (gain * motor.stall_torque_nm)
-    ramp_rad = min(cam_rad, law.ramp_rad)
-    return -math.log1p(-share * ramp_rad / law.ramp_rad) / share * law.ramp_rad + (cam_rad - ramp_rad) / (1 - share)
+    ramp_rad, down_rad = min(cam_rad, law.ramp_rad), max(0.0, cam_rad - law.lift_rad + law.ease_rad)
+    up = -math.log1p(-share * ramp_rad / law.ramp_rad) / share * law.ramp_rad
+    down = math.log1p(share * down_rad / law.ease_rad / (1 - share)) / share * law.ease_rad if down_rad else 0.0
+    return up + (cam_rad - ramp_rad - down_rad) / (1 - share) + down
 
 
 def winding(law: CamLaw, motor: Motor, ratio: float, efficiency: float) -> Winding:

@@ -86,7 +86,8 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
         )  # fmt: skip
     spring = _spring(design, limits, catalogue)
     stiffness = 2.0 * spring.stiffness_nm_per_rad
-    law = CamLaw(compression, stiffness, limits.cam.lift_rad, limits.cam.ramp_rad, spring.preload_rad)
+    ours = limits.cam
+    law = CamLaw(compression, stiffness, ours.lift_rad, ours.ramp_rad, spring.preload_rad, ours.ease_rad)
     motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
     refusal: CannotBuildError | None = None
     for width in FACE_WIDTHS_MM:

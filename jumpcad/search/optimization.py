@@ -49,6 +49,7 @@ def optimize(
     against: str | None = None,
     require: Mapping[str, tuple[float | None, float | None]] = NOTHING,
     start: Sequence[Design | str | Path] = (),
+    cold: bool = False,
 ) -> Result:
     """Search for the design that jumps farthest, and pick one whose neighbours jump well too.
 
@@ -79,6 +80,9 @@ def optimize(
         Free only some parameters, or search near a design; see `Space.make`. That design is evaluated first.
     start
         Designs in the space, templates' names or files: they are evaluated first, and the search begins with them.
+    cold
+        Begin without the shipped designs, of which the best three in the space are else among the first ones of a
+        printed robot's search.
     workshop, settings, engine
         Where `printed` is built and how it is simulated; see `robot_model`, which refuses what the model does not use.
     workers, dask, limit_s
@@ -119,7 +123,7 @@ def optimize(
     space = Space.make(fixed, bounds, choices, centre, only, within_percent, robot.workshop, method == PAPER)
     request = Request(
         space, robot, objective, method, evaluations, seed, preset, batch, learned, until_percent, hours, screen,
-        against, begun, centre,
+        against, begun, centre, cold,
     )  # fmt: skip
     with open_pool(workers, dask, limit_s) as pool:
         return run_study(request, path, pool)

@@ -315,10 +315,12 @@ class StrengthTable(TomlTable):
 class ReleaseTable(TomlTable):
     """The dog between cam and cam gear, and assumptions and limits of the release; ranges are (least, largest).
 
-    `play_deg` is the dog's free play, "auto" by the rule in `drive.dog`, 0 a rigid key.
+    `play_deg` is the dog's free play, "auto" by the rule in `drive.dog`, 0 a rigid key. `ease_deg` is the cam angle
+    before the drop over which the motor's torque falls to 0.
     """
 
     play_deg: Literal["auto"] | Annotated[float, Field(ge=0, le=90)]
+    ease_deg: Annotated[float, Field(ge=0, le=90)]
     corner_radius_mm: Annotated[float, Field(ge=0, le=3)]
     friction: Annotated[float, Field(ge=0, le=1)]
     rotor_kg_m2: Annotated[tuple[SmallPositive, SmallPositive], Field(strict=False)]

@@ -18,8 +18,8 @@ NOTHING = {"pressure_angle": [0.0], "pressure": [0.0], "force": [0.0]}
 
 
 @pytest.mark.parametrize("scale", [1.0, 1.15])
-@pytest.mark.parametrize("preload_deg", [0.0, 4.0])
-def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg: float) -> None:
+@pytest.mark.parametrize(("preload_deg", "ease_deg"), [(0.0, 0.0), (4.0, 0.0), (0.0, 25.0)])
+def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg: float, ease_deg: float) -> None:
     """Forces, angles and curvature by differences along the roller's path in the cam's frame, 40,000 places.
 
     The normal's angle to the roller's way is the pressure angle; the contact force has the springs' moment about the
@@ -27,7 +27,8 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     measured where they are convex.
     """
     limits = CAM_LIMITS
-    law = CamLaw(math.radians(45), 1.0, limits.lift_rad, limits.ramp_rad, math.radians(preload_deg))
+    preload_rad, ease_rad = np.radians([preload_deg, ease_deg]).tolist()
+    law = CamLaw(math.radians(45), 1.0, limits.lift_rad, limits.ramp_rad, preload_rad, ease_rad)
     lever, gap, lead = 14.0 * scale, 15.0 * scale, 0.4
     outer, rows, numbers = measure(law, limits, np.array([[lever, gap, lead]]), 4000)
     shape = CamGeometry(law, lever, lever + gap, 1.4, lead, limits.roller_radius_mm, limits.clearance_mm,
@@ -49,7 +50,8 @@ def test_margins_are_those_of_the_pitch_curve_as_drawn(scale: float, preload_deg
     relative = 1.0 / limits.roller_radius_mm + 1.0 / radius
     modulus = limits.modulus_mpa / (1.0 - limits.poisson**2)
     pressure = np.sqrt(force * relative * modulus / (math.pi * limits.cam_width_mm))
-    away = [i for i, one in enumerate(np.abs(cam[2:-2] - law.ramp_rad)) if one > 2e-3]  # the law bends there
+    bends = [law.ramp_rad, law.lift_rad - law.ease_rad]
+    away = [i for i, one in enumerate(np.abs(cam[2:-2, None] - bends).min(axis=1)) if one > 2e-3]
     found = {
         limit.name: min(float(row[0]) for row, of in zip(rows, ROWS, strict=True) if of == number)
         for number, limit in enumerate(LIMITS)

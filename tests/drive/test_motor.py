@@ -4,6 +4,7 @@ import math
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from support.built import built
 from support.limits import default_limits
@@ -36,6 +37,16 @@ def test_without_a_spring_the_cam_turns_at_the_motors_free_speed() -> None:
     assert turn.seconds == pytest.approx(3.0 * 60.0 / MOTOR.no_load_rpm, rel=1e-6)
     assert turn.mean_current_a == pytest.approx(MOTOR.no_load_current_a, rel=1e-6)
     assert turn.electrical_j == pytest.approx(MOTOR.voltage_v * MOTOR.no_load_current_a * turn.seconds, rel=1e-6)
+
+
+def test_a_turn_takes_the_sum_of_the_times_at_each_torque_also_where_that_falls_before_the_drop() -> None:
+    """A DC motor turns at (1 - share of the stall torque) of its free speed; summed over small angles."""
+    spring = replace(law(1.0), ease_rad=math.radians(25))
+    ratio = spring.peak_torque_nm / (0.4 * MOTOR.stall_torque_nm)
+    cam = np.linspace(0.0, spring.lift_rad, 20001)
+    slower = 1.0 / (1.0 - spring.torque_nm(cam) / (ratio * MOTOR.stall_torque_nm))
+    summed = ratio / free_speed_rad_s(MOTOR) * np.trapezoid(slower, cam)
+    assert lift_s(spring, MOTOR, ratio, 1.0, spring.lift_rad) == pytest.approx(summed, rel=1e-6)
 
 
 def test_at_half_of_its_stall_torque_a_motor_turns_half_as_fast_and_draws_half_of_the_way_to_stall() -> None:

@@ -1,4 +1,4 @@
-"""The first designs of a search: half are the best of many by a quick model, the others are evenly spread.
+"""The first designs of a search: half are shipped ones and the best of many by a quick model, the others evenly spread.
 
 Of evenly spread designs of the printed robot, six in seven are rejected. A quick robot is simulated in milliseconds;
 designs with which it jumps far are probably good. The other half covers errors of the quick model.
@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from jumpcad.design import load_design
+from jumpcad.files.templates import template_names
 from jumpcad.search.methods import START
 from jumpcad.search.space import Space, apart
 from jumpcad.search.study.evaluator import Evaluator
@@ -22,6 +24,8 @@ from jumpcad.transforms import Array
 SCREENED, BRED, GENERATIONS, CROSSED = 512, 48, 12, 0.8
 """Designs that the quick model ranks, how many of the best are bred, so many times, and the share of coordinates that
 change (about a second with the extra `fast`)."""
+SHIPPED = 3
+"""Shipped designs to begin with, at most; a search of eight parameters has twelve first designs."""
 DIGITS = 4
 """Of the coordinates of what is bred."""
 APART = 0.1
@@ -55,9 +59,10 @@ def begun(evaluator: Evaluator) -> list[Trial]:
 
 
 def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[Array]:
-    """Return points (dimension,) with which the quick robot jumps, the best first; none for other robots.
+    """Return points (dimension,) with which the quick robot jumps; none for other robots.
 
-    Of many that are evenly spread, better ones are `bred`.
+    First the best shipped designs of the space, but in a `cold` search; then, the best first, those that are `bred` of
+    many that are evenly spread.
     """
     quick = getattr(evaluator.model, "quick_score", None)
     if quick is None:
@@ -68,9 +73,18 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     def scored(points: Array) -> Array:
         return np.array(evaluator.shared(lambda point: quick(space.to_design(point), objective), [*points]))
 
-    scores = scored(points)
-    order = np.argsort(-scores, kind="stable")
-    points, scores = points[order], scores[order]
+    def sorted_by_score(points: Array) -> tuple[Array, Array]:
+        scores = scored(points)
+        order = np.argsort(-scores, kind="stable")
+        return points[order], scores[order]
+
+    names = [] if evaluator.request.cold else template_names("robots")
+    variants = [space.begun(load_design(name), evaluator.model.workshop) for name in names]
+    shipped, theirs = sorted_by_score(
+        np.array([space.to_unit(one) for one in variants if not space.outside(one)]).reshape(-1, space.dimension)
+    )
+    shipped = shipped[np.isfinite(theirs)][:SHIPPED]
+    points, scores = sorted_by_score(points)
     count = min(BRED, int(np.isfinite(scores).sum()))
     for _ in range(GENERATIONS if count >= 8 else 0):
         children = space.snap(bred(points[:count], generator).round(DIGITS))
@@ -79,7 +93,7 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
         order = better[np.argsort(-their[better], kind="stable")]
         points[:count], scores[:count] = both[order], their[order]
     order = np.argsort(-scores, kind="stable")
-    return [points[index] for index in order if math.isfinite(scores[index])]
+    return [*shipped, *(points[index] for index in order if math.isfinite(scores[index]))]
 
 
 def bred(parents: Array, generator: np.random.Generator) -> Array:

@@ -16,7 +16,7 @@ from jumpcad.files import did_you_mean
 from jumpcad.files.complaints import shown
 from jumpcad.search import methods
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
-from jumpcad.search.methods import FRONTS, METHODS, NAMES, SEQUENCES, STAGES, Method
+from jumpcad.search.methods import FRONTS, METHODS, NAMES, PAPER, SEQUENCES, STAGES, Method
 from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
 from jumpcad.search.space import Space
 from jumpcad.search.study.code_hash import versions
@@ -51,6 +51,7 @@ class Request:
     against: str | None = None
     start: Sequence[Design] = ()
     around: Design | None = None
+    cold: bool = False
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -92,11 +93,10 @@ class Request:
             if value not in (getattr(Request, name), 0.0) and not takes(_methods(self.method)):
                 takers = ", ".join(other for other in NAMES if takes(_methods(other)))
                 raise JumpcadError(f"{name} = {shown(value)}: does not apply to {self.method}, only to {takers}")
-        if self.screen:
-            if not isinstance(self.model, PrintedModel):
-                raise JumpcadError("screen: applies to the printed robot; leave it out")
-            if self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring):
-                raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
+        if (self.screen or self.cold) and not isinstance(self.model, PrintedModel):
+            raise JumpcadError(f"{'screen' if self.screen else 'cold'}: applies to the printed robot; leave it out")
+        if self.screen and (self.space.of_workshop or (self.model.workshop and self.model.workshop.bought.spring)):
+            raise JumpcadError("screen: applies to one workshop with springs made to order; leave it out")
         for one in self._begun(self.start):
             if outside := self.space.outside(one):
                 raise JumpcadError(
@@ -182,6 +182,7 @@ class Request:
             **({"screen": self.model.estimate_engine} if self.screen and isinstance(self.model, PrintedModel) else {}),
             "making": asdict(self.model.making),
             **({"start": [one.key for one in self.first]} if self.first else {}),
+            **({"cold": True} if self.cold else {}),
             "prior": hashlib.sha256(learned.encode()).hexdigest() if prior else None,
             "versions": self.model.versions() | versions(*LEARNING_VERSIONS),
         }  # fmt: skip
@@ -220,6 +221,7 @@ TAKE: Mapping[str, Callable[[Sequence[Method]], bool]] = {
     "batch": lambda methods: any(method.learns for method in methods),
     "until_percent": lambda methods: methods[-1].ends,
     "screen": lambda methods: [method.name for method in methods] == ["ga"],
+    "cold": lambda methods: methods[0].name not in (PAPER, "nsga2"),
 }
 """Options that some methods take alone, and which."""
 

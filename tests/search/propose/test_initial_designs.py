@@ -1,16 +1,21 @@
 """Where a search starts."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from support.hills import SMALL, TOP, Hill
 
 from jumpcad.design import load_design
+from jumpcad.errors import JumpcadError
+from jumpcad.files.templates import template_names
 from jumpcad.search.estimate.estimated_robot import quick_robot, quick_size_m
 from jumpcad.search.models import robot_model
-from jumpcad.search.propose.initial_designs import APART, first_points, ranked_points
+from jumpcad.search.propose.initial_designs import APART, SHIPPED, first_points, ranked_points
+from jumpcad.search.space import Space
 from jumpcad.search.study.objective import find_objective
+from jumpcad.search.study.request import Request
 
 
 class Known(Hill):
@@ -33,6 +38,39 @@ def test_half_of_the_start_is_spread_and_half_the_best_of_the_quick_model(evalua
     assert max(scores) > 9.8  # the top, to the distance of 512 points
     for number, point in enumerate(points[12:]):
         assert all(np.abs(point - other).max() >= APART for other in points[12 + number + 1 :])
+
+
+def test_a_search_begins_with_the_best_shipped_designs_of_its_space_unless_it_is_cold():
+    """By a quick model that likes the smallest robot: those of the shipped files with the shortest main legs."""
+
+    class Short(Known):
+        def quick_score(self, design, objective):
+            return -design.carrying_link_mm
+
+    def points(cold: bool) -> list:
+        asked = SimpleNamespace(space=Space.make(), model=Short(), objective=None, request=SimpleNamespace(cold=cold),
+                                shared=lambda score, points: [*map(score, points)])  # fmt: skip
+        return ranked_points(asked, np.random.default_rng(2))
+
+    known, cold, lengths = points(False), points(True), Space.make().free[0]
+    shipped = sorted(
+        design.carrying_link_mm
+        for design in map(load_design, template_names("robots"))
+        if Space.make().contains(design)
+    )
+    begin = [lengths.lower + point[0] * lengths.width for point in known[: len(known) - len(cold)]]
+    assert begin == pytest.approx(shipped[:SHIPPED])
+    assert np.array_equal(known[SHIPPED:], cold)
+
+
+def test_a_cold_search_is_one_of_printed_robots_with_ranked_first_designs() -> None:
+    assert Request(Space.make(), robot_model(), cold=True).identity([])["cold"]
+    for asked, said in (
+        ({"model": robot_model("capsule")}, "printed robot"),
+        ({"method": "paper"}, "only to ga\\+bo, ga"),
+    ):
+        with pytest.raises(JumpcadError, match=rf"cold( = True)?: .*{said}"):
+            Request(**{"space": Space.make(study=True), "model": robot_model(), "cold": True, **asked})
 
 
 def test_what_is_not_admitted_is_passed_over():
