@@ -16,8 +16,9 @@ from unittest.mock import patch
 from field_words import meaning
 from reference_page import EXAMPLE, page, table
 
+from jumpcad.building.bom import SlicedPlate
 from jumpcad.bundle.manifest import open_bundle
-from jumpcad.bundle.sliced import SlicedBundle, SlicedPart, SlicedPlate
+from jumpcad.bundle.sliced import SlicedBundle, SlicedPart
 from jumpcad.calibration import posterior, surface
 from jumpcad.cli.commands import run
 from jumpcad.cli.printing import slice_facts

@@ -112,6 +112,11 @@ class Design(Record):
         return self.e_coef * self.carrying_link_mm
 
     @property
+    def links_mm(self) -> tuple[float, float, float, float]:
+        """Lengths of main leg, front link, foot and toes (mm)."""
+        return self.l2_mm, self.l3_mm, self.l4_mm, self.l5_mm
+
+    @property
     def l_max_mm(self) -> float:
         """Longest link, by which the fitness divides: max(l2, l3, l5) (mm)."""
         return max(self.l2_mm, self.l3_mm, self.l5_mm)

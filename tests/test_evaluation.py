@@ -24,7 +24,7 @@ from jumpcad.exporters.loop_file import write_loop
 from jumpcad.exporters.urdf import write_urdf
 from jumpcad.files import template_names
 from jumpcad.findings import errors
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.scene.visuals import extent_m
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf

@@ -52,7 +52,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
     known = {part.name: part for part in before.parts} if before is not None else {}
     weighed = (
-        replace(part, drawing=drawing)
+        replace(part, shape=drawing.shape, placements=drawing.placements)
         if (part := known.get(drawing.name)) is not None and part.shape == drawing.shape
         else weighed_part(drawing, workshop)
         for drawing in drawn
@@ -120,12 +120,10 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
     settled = solve_bearing_and_drive(design, workshop, growth, plate_pins_rad)
     require_retention(workshop.catalogue, workshop.bought)
     carried = chosen_parts(workshop)
-    parts = carried.components
     electronics = Electronics(
-        carried.battery, carried.controller, carried.driver, carried.regulator, parts.get("plug"),
-        parts.get("capacitor"), carried.gyroscope, settled.holes.fits.wall_min_mm, settled.holes.fits.sliding_mm,
-        side if (side := workshop.seats.battery) in ("left", "right") else None,
-        "left" if workshop.seats.boards == "left" else "right",
+        **vars(carried), wall_mm=settled.holes.fits.wall_min_mm, play_mm=settled.holes.fits.sliding_mm,
+        battery_side=side if (side := workshop.seats.battery) in ("left", "right") else None,
+        usb_side="left" if workshop.seats.boards == "left" else "right",
     )  # fmt: skip
     return make_layout(
         settled.linkage, settled.sections, settled.drive, electronics, workshop, hub_bearing=settled.holes.bearing,
@@ -133,7 +131,7 @@ def _laid_out(design: Design, workshop: Workshop, growth: Growth, plate_pins_rad
         toes_apart=not in_one_piece(design, settled.sections, workshop.printer.bed_mm, workshop.body.toe_half_width_mm),
         plate_mm=grown_mm(workshop.body.plate_mm, growth.plate),
         leg_pin_hole_mm=settled.holes.loose(pin_head_mm(workshop.catalogue, workshop.bought)),
-        sensor=_sensor_needs(workshop, carried, settled.drive), switch=parts.get("switch"),
+        sensor=_sensor_needs(workshop, carried, settled.drive),
     )  # fmt: skip
 
 

@@ -146,11 +146,8 @@ def solve_bearing_and_drive(
 
 def fall_s(linkage: Linkage, spring: Spring, past_rad: float) -> float:
     """Return the time from release to an angle past rest, with a typical mass of the body and a reserve (s)."""
-    body, still = TYPICAL_BODY, np.zeros((3, 3))
-    inertia = np.diag([0.0, body.mass_kg * (body.gyration_mm / 1000.0) ** 2, 0.0])
-    com = np.array([body.com_mm[0], 0.0, body.com_mm[1]]) / 1000.0
-    bodies = {BODY: Body(BODY, body.mass_kg, com, inertia)}
-    bodies |= {name: Body(name, 0.0, np.zeros(3), still) for name in (MAIN_LEG, FRONT_LINK)}
+    bodies = {BODY: Body.of(BODY, TYPICAL_BODY)}
+    bodies |= {name: Body(0.0, np.zeros(3), np.zeros((3, 3)), name) for name in (MAIN_LEG, FRONT_LINK)}
     return RESERVE * reflected_mass(bodies, linkage).push_off_s(spring, past_rad)
 
 

@@ -37,11 +37,7 @@ def bodies_of(layout: Layout, parts: Iterable[Part], hardware: Iterable[BoughtPa
     for item in hardware:
         carried[item.body].append(item.mass)
     contacts = _contacts(layout)
-    bodies = {}
-    for name in BODY_NAMES:
-        mass = combined(carried[name])
-        bodies[name] = Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts.get(name, ()))
-    return bodies
+    return {name: Body.of(name, combined(carried[name]), contacts.get(name, ())) for name in BODY_NAMES}
 
 
 def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[str, Complex]:
@@ -53,7 +49,7 @@ def outlines_m(parts: Iterable[Part], hardware: Iterable[BoughtPart]) -> dict[st
 
     hardware = list(hardware)
     rods = {item.name: item.wire for item in hardware if item.wire is not None and item.name.startswith(CAGE)}
-    placed = [(one.drawing.shape.bounds_mm, place.body, place.T_body_part) for one in parts for place in one.placements]
+    placed = [(one.shape.bounds_mm, place.body, place.T_body_part) for one in parts for place in one.placements]
     boxed = [(item.shape.bounds_mm, item.body, item.T_body_part) for item in hardware if item.name not in rods]
     bounds, of_body, poses = (np.array(column) for column in zip(*placed, *boxed, strict=True))
     boxes = bounds[:, CORNERS, [0, 1, 2]] @ poses[:, :3, :3].transpose(0, 2, 1) + poses[:, None, :3, 3]
@@ -110,15 +106,15 @@ def weighed_part(drawing: Drawing, workshop: Workshop) -> Part:
     material, material_name = workshop.material(drawing.role), workshop.material_name(drawing.role)
     model, nozzle = workshop.mass.model, workshop.printer.nozzle_mm
     mass = mass_properties(drawing.shape, material.density_g_cm3, workshop.process, nozzle, model)
-    weighed = workshop.mass.weighed_g.get(drawing.name)
-    if weighed is not None:
-        grams = 1000.0 * mass.mass_kg
-        if not grams / WEIGHED_OFF <= weighed <= grams * WEIGHED_OFF:
-            raise JumpcadError(
-                f"mass.weighed_g.{drawing.name} = {weighed:g}: as drawn it weighs about {grams:.2g} g: is it in grams?"
-            )
-        return Part(drawing, material_name, mass.scaled_to(weighed / 1000.0), "weighed")
-    return Part(drawing, material_name, mass, model)
+    drawn = drawing.name, drawing.role, drawing.shape, drawing.placements, material_name
+    weighed, grams = workshop.mass.weighed_g.get(drawing.name), 1000.0 * mass.mass_kg
+    if weighed is None:
+        return Part(*drawn, mass, model)
+    if not grams / WEIGHED_OFF <= weighed <= grams * WEIGHED_OFF:
+        raise JumpcadError(
+            f"mass.weighed_g.{drawing.name} = {weighed:g}: as drawn it weighs about {grams:.2g} g: is it in grams?"
+        )
+    return Part(*drawn, mass.scaled_to(weighed / 1000.0), "weighed")
 
 
 def require_parts(weighed: Iterable[str], names: Sequence[str]) -> None:

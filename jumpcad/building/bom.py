@@ -33,7 +33,7 @@ DUST = ("gloves", "mask (FFP2)", "sandpaper")
 
 def used_up(robot: Robot) -> tuple[str, ...]:
     """Return the names of what the guide tells the builder to use up."""
-    layout, parts = robot.layout, robot.electrical_parts.components
+    layout, parts = robot.layout, robot.layout.electronics.components
     found = list(ALWAYS)
     if "plug" in parts:
         found.append("second battery and socket like the robot's, leads insulated")
@@ -86,11 +86,12 @@ class BillLine(MassLine):
 
 
 @dataclass(frozen=True)
-class BilledPlate:
-    """A plate as it was sliced: its printing time (s)."""
+class SlicedPlate:
+    """A print plate as sliced: grams and seconds of all parts on it."""
 
     name: str
     material: str
+    grams: float
     time_s: float
 
 
@@ -99,7 +100,7 @@ class Bill:
     """All lines, printed parts first, the print plates if they were sliced, and names of what is used up."""
 
     items: tuple[BillLine, ...]
-    plates: tuple[BilledPlate, ...] = ()
+    plates: tuple[SlicedPlate, ...] = ()
     used: tuple[str, ...] = ()
 
     @property
@@ -137,7 +138,7 @@ class Bill:
         cost = "" if self.cost_eur is None else f"; about {euros(self.cost_eur)} € together, {self.known}"
         return f"In all {1000.0 * self.mass_kg:.1f} g{cost}."
 
-    def sliced(self, times_s: Mapping[str, float], plates: Iterable[BilledPlate]) -> "Bill":
+    def sliced(self, times_s: Mapping[str, float], plates: Iterable[SlicedPlate]) -> "Bill":
         """Return the bill with printing times: `times_s` of one copy of each part, by name, and those of plates."""
         items = (
             replace(item, time_s=times_s.get(item.name)) if item.kind == "printed" else item for item in self.items

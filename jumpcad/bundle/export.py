@@ -79,7 +79,7 @@ def export(
 def contents(robot: Robot, exporters: Iterable[Exporter], pictures: bool, jump: Jump) -> Files:
     """Return path and content of every file of a bundle, except its manifest."""
     for part in robot.parts:
-        part.drawing.solid  # noqa: B018  # made once, for files and pictures
+        part.solid  # noqa: B018  # made once, for files and pictures
     with ThreadPoolExecutor(1) as beside:  # most of drawing is arithmetic, during which Python goes on here
         drawn = beside.submit(all_pictures, robot) if pictures else None
         files: dict[str, str | bytes] = {DESIGN: robot.design.to_toml(), WORKSHOP: robot.workshop.to_toml()}

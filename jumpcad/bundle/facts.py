@@ -80,7 +80,7 @@ def stop_facts(robot: Robot) -> dict[str, Any]:
 
 def electronics_facts(robot: Robot) -> dict[str, Any]:
     """Return the battery's voltages (empty, full), and for each part the supplied and the permitted voltages."""
-    chosen, train = robot.electrical_parts, robot.layout.drive.train
+    chosen, train = robot.layout.electronics, robot.layout.drive.train
     supply = robot.supply
     empty, full = chosen.battery.range_v
     chained = [

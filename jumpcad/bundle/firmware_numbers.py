@@ -43,7 +43,7 @@ Judgement: a winding lowers the voltage by less, also with an old battery of thr
 def numbers(robot: Robot) -> dict[str, float | int | None]:
     """Return this robot's numbers, by the names that the firmware uses."""
     workshop, train = robot.workshop, robot.layout.drive.train
-    chosen = robot.electrical_parts
+    chosen = robot.layout.electronics
     supply, wiring = robot.supply, robot.wiring
     torque_max = workshop.safety.motor_torque_max_nm
     slow = supply.driven(train.motor, supply.empty_v, torque_max)

@@ -17,8 +17,8 @@ from jumpcad.errors import JumpcadError
 from jumpcad.exporters.glb import BodyMotion
 from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
-from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.mass import combined
+from jumpcad.mechanism.model import BODY, BODY_NAMES, MAIN_LEG, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.jump import Trajectory
@@ -163,11 +163,7 @@ def recorded_poses(trajectory: Trajectory, moment: int) -> dict[str, Array]:
 
 
 def _com(robot: Robot, moment: PhasePose) -> Array:
-    com = np.zeros(3)
-    for name, body in robot.bodies.items():
-        pose = moment.poses[name]
-        com += body.mass_kg * ((pose[:3, :3] * body.com_m).sum(axis=1) + pose[:3, 3])
-    return com / robot.mass_kg
+    return combined(body.placed(moment.poses[name]) for name, body in robot.bodies.items()).com_m
 
 
 def _seven(pose: Array) -> list[float]:

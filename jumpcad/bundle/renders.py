@@ -10,8 +10,7 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from jumpcad.bundle.motion import recorded_poses
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.labels import STRIPE_M, labelled, with_floor
 from jumpcad.scene.renderer import COMPRESSION, Renderer, View, aimed, paletted, png_of

@@ -9,13 +9,13 @@ import numpy as np
 import trimesh
 from manifold3d import Manifold, Mesh64
 
-from jumpcad.building.bom import BilledPlate, bill_of_facts, write_bom
+from jumpcad.building.bom import SlicedPlate, bill_of_facts, write_bom
 from jumpcad.bundle.atomic_write import change_files
 from jumpcad.bundle.guide.markdown import with_bill
 from jumpcad.bundle.manifest import WORKSHOP, Bundle, few, kept_workshop, open_bundle, verify
 from jumpcad.errors import CannotBuildError, JumpcadError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.prusaslicer import Sliced, slice_part, slice_plate, slicer_version
+from jumpcad.printing.prusaslicer import Sliced, slice_model, slicer_version
 from jumpcad.solids.moments import mesh_moments
 from jumpcad.solids.outline import Region
 from jumpcad.solids.slab import CrossSections
@@ -47,16 +47,6 @@ class SlicedPart:
     def difference(self) -> float:
         """Modelled less sliced mass, over the sliced one."""
         return self.modelled_grams / self.grams - 1.0
-
-
-@dataclass(frozen=True)
-class SlicedPlate:
-    """A print plate as sliced: grams and seconds of all parts on it."""
-
-    name: str
-    material: str
-    grams: float
-    time_s: float
 
 
 @dataclass(frozen=True)
@@ -114,7 +104,7 @@ def slice_bundle(
     for line in printed:
         tell(line["name"])
         stl, material = bundle.file(f"stl/{line['name']}.stl"), workshop.materials[line["material"]]
-        sliced = slice_part(stl, workshop.printer, workshop.process, material)
+        sliced = slice_model(stl, workshop.printer, workshop.process, material)
         ignored |= sliced.ignored
         modelled = _modelled_grams(stl, workshop, material)
         parts.append(
@@ -122,7 +112,7 @@ def slice_bundle(
         )
     for path, name, material_name in _plates(bundle):
         tell(name)
-        sliced = slice_plate(path, workshop.printer, workshop.process, workshop.materials[material_name])
+        sliced = slice_model(path, workshop.printer, workshop.process, workshop.materials[material_name])
         ignored |= sliced.ignored
         plates.append(SlicedPlate(name, material_name, _grams(path, sliced), sliced.time_s))
     billed = workshop == built_in and {BOM, ORDER} <= set(bundle.files)
@@ -132,10 +122,8 @@ def slice_bundle(
 def write_times(found: SlicedBundle) -> Bundle:
     """Write the printing times into a bundle's bill of materials and order.md, and return the changed bundle."""
     bundle = found.bundle
-    bill = bill_of_facts(bundle.manifest["masses"], found.workshop, bundle.manifest.get("used_up", ())).sliced(
-        {part.name: part.time_s for part in found.parts},
-        [BilledPlate(plate.name, plate.material, plate.time_s) for plate in found.plates],
-    )
+    bill = bill_of_facts(bundle.manifest["masses"], found.workshop, bundle.manifest.get("used_up", ()))
+    bill = bill.sliced({part.name: part.time_s for part in found.parts}, found.plates)
     try:
         order = bundle.file(ORDER).read_text(encoding="utf-8")
     except UnicodeDecodeError:

@@ -91,6 +91,6 @@ def _contents(robot: Robot, made: Sequence[Robot], kind: Format) -> Iterator[tup
 def _row(one: Robot) -> list[object]:
     design, rubs = one.design, one.friction
     stiffness = math.radians(1000.0 * one.spring.stiffness_nm_per_rad)
-    figures = [design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm, stiffness, 1000.0 * one.mass_kg]
+    figures = [*design.links_mm, stiffness, 1000.0 * one.mass_kg]
     figures += [rubs.foot, rubs.body, rubs.pin] if rubs else []
     return [one.name, *(f"{value:.6g}" for value in figures)]

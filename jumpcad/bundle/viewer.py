@@ -21,7 +21,7 @@ from jumpcad.exporters.xml import allowed
 from jumpcad.files.templates import templates_folder
 from jumpcad.landing.course import Trip
 from jumpcad.landing.series import Series
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, extent_m, visuals

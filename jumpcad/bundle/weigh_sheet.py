@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from jumpcad.errors import JumpcadError
 from jumpcad.files.reading import to_csv
-from jumpcad.mechanism.mass import MassProperties, combined
+from jumpcad.mechanism.mass import combined
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import CHOOSE
 from jumpcad.simulation import simulate
@@ -33,7 +33,7 @@ def weigh_sheet(robot: Robot) -> str:
         if together.mass_kg < LEAST_KG:
             continue
         old, gram = robot.bodies[body], together.scaled_to(1e-3)  # spread as the pieces are
-        mass = combined([MassProperties(old.mass_kg, old.com_m, old.inertia_kg_m2), gram])
+        mass = combined([old, gram])
         heavier = _figures(replace(robot, bodies={**robot.bodies, body: replace(old, **vars(mass))}))
         both = zip(heavier, plain, strict=True) if heavier and plain else ()
         effect = [f"{1000.0 * (more - now):.2f}" for more, now in both] or ["", ""]

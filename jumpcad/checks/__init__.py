@@ -15,8 +15,7 @@ from jumpcad.drive.spring_choice import for_bought_springs
 from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.robot.robot import Robot
-from jumpcad.robot.thing import Check
+from jumpcad.robot.robot import Check, Robot
 from jumpcad.robot.things import THINGS
 
 __all__ = [

@@ -14,7 +14,7 @@ import numpy as np
 
 from jumpcad.checks.interference import Piece, box_of, may_share, shared_volume_mm3
 from jumpcad.findings import Basis, Finding, Remedy, choose, higher, lower
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.cage.limits import ELSEWHERE
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals

@@ -92,7 +92,7 @@ class Position:
 def pieces_of(robot: Robot) -> list[Piece]:
     """Return every piece of a robot, each copy separately."""
     printed = [
-        Piece(part.name, placement.body, part.drawing.shape, placement.T_body_part)
+        Piece(part.name, placement.body, part.shape, placement.T_body_part)
         for part in robot.parts
         for placement in part.placements
     ]

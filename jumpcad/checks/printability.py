@@ -73,9 +73,9 @@ Fails = Callable[[Region, float], bool]
 def bed_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `bed_fit`: every part within the printer's bed, parallel to it or turned."""
     bed = robot.workshop.printer.bed_mm
-    fitted = ((part.drawing.fit_to_bed(bed).margin_mm, part) for part in robot.parts)
+    fitted = ((part.fit_to_bed(bed).margin_mm, part) for part in robot.parts)
     margin, part = min(fitted, key=lambda item: item[0])
-    size = np.ptp(part.drawing.shape.bounds_mm, axis=0)
+    size = np.ptp(part.shape.bounds_mm, axis=0)
     yield limit(
         "bed_fit", margin, "mm",
         f"{part.name}, {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} mm, on a bed of "
@@ -88,8 +88,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
     """Return the findings that need outlines and meshes: walls, holes, pins, overhangs, bridges, solid."""
     fits, process = robot.workshop.fits, robot.workshop.process
     wall_min = max(fits.wall_min_mm, WALL_LINES * process.line_width_mm)
-    drawings = [part.drawing for part in robot.parts]
-    regions = [(drawing.name, *tall) for drawing in drawings for tall in _tall_regions(drawing, wall_min)]
+    regions = [(drawing.name, *tall) for drawing in robot.parts for tall in _tall_regions(drawing, wall_min)]
     hole_min = min(fits.hole_min_mm, fits.m2_tap_mm)
     columns = [(name, height, piece) for name, height, region in regions for piece in region.decompose()]
     slender = [
@@ -100,7 +99,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
     flat = [(name, region) for name, _, region in regions]
     finer = "a finer nozzle with its own fits"
     less = {key: (finer, *lower(f"fits.{key}", note="if your printer prints it")) for key in MINIMA}
-    undersides = [(drawing.name, *side) for drawing in drawings for side in _undersides(drawing, fits, process)]
+    undersides = [(drawing.name, *side) for drawing in robot.parts for side in _undersides(drawing, fits, process)]
     reaches = [(size, name) for name, bridge, size in undersides if not bridge]
     spans = [(size, name) for name, bridge, size in undersides if bridge]
     free, wider = OVERHANG_LINES * process.line_width_mm, higher("fits.bridge_mm", note="if possible")
@@ -110,7 +109,7 @@ def printability_findings(robot: Robot) -> list[Finding]:
         _narrowest("pins", "column", slender, partial(_narrow, 1.0), fits.pin_min_mm, less["pin_min_mm"]),
         _largest("overhangs", "overhang", reaches, free, "turn the part over, or use support"),
         _largest("bridges", "bridge", spans, fits.bridge_mm, ("use support", *wider)),
-        *_solid_findings(drawings),
+        *_solid_findings(robot.parts),
     ]
 
 

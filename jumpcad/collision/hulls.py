@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.mass import combined
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism, body_poses
 from jumpcad.robot.cage.limits import ring_n_per_mm
 from jumpcad.robot.cage.place import Cage
 from jumpcad.robot.robot import Robot
@@ -152,10 +151,7 @@ def _loaded(robot: Robot) -> tuple[Array, Array, Array]:
     ]
     cage = [end for capsule in cage_capsules(robot) for end in (capsule.start_m, capsule.end_m)]
     placed.append(_moved(poses[BODY], np.reshape(cage, (-1, 3))))
-    whole = combined(
-        MassProperties(body.mass_kg, body.com_m, body.inertia_kg_m2).placed(poses[name])
-        for name, body in robot.bodies.items()
-    )
+    whole = combined(body.placed(poses[name]) for name, body in robot.bodies.items())
     return np.concatenate(placed), whole.com_m, poses[FOOT][:3, 2]
 
 

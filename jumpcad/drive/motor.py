@@ -15,7 +15,8 @@ from jumpcad.drive.cam_law import CamLaw
 from jumpcad.electronics.supply import Supply
 
 FACE_WIDTHS_MM = (5.0, 6.5, 8.0)
-"""Widths of gears, the least first; judgement: 25 layers of 0.2 mm, and up to 1.6 times that."""
+"""Widths of gears, in the order tried: the next one where no gears are strong enough and also fit; judgement: 25 layers
+of 0.2 mm, and up to 1.6 times that."""
 
 
 @dataclass(frozen=True)

@@ -40,13 +40,8 @@ class DriveLimits:
     - `dog_mm`: Diameter of the dog between cam and cam gear.
     - `stock_spring`, `preload_rad`: The springs from stock, None where they are made to order; how far they are loaded
       at rest.
-    - `gap_mm`: Gap between parts that move past each other.
-    - `axle_radius_mm`: Radius of an axle with its spacers: of the leg's axle where the cam gear passes it, beside the
-      spring, and of an idler's axle beside the cam.
     - `fall_s`: Time from release to the leg's swing past rest, during which the motor may turn the cam; the default is
       that of robots of 0.1 kg with strong springs.
-    - `face_widths_mm`: Face widths of gears, in the order tried: the next one where no gears are strong enough and also
-      fit.
     - `more_gap_mm`: How much farther than necessary the cam's axis may be from the hub, in the order tried: a farther
       axis makes room for a larger cam gear, and one pair of gears is lighter than two. Gaps that are too small for one
       pair are left out. Judgement: a body has no room for more.
@@ -59,10 +54,7 @@ class DriveLimits:
     dog_mm: float
     stock_spring: StockSpring | None = None
     preload_rad: float = 0.0
-    gap_mm: float = CLEAR_MM
-    axle_radius_mm: float = SPACER_RADIUS_MM
     fall_s: float = 0.05
-    face_widths_mm: tuple[float, ...] = FACE_WIDTHS_MM
     more_gap_mm: tuple[float, ...] = (0.0, 2.5, 5.0, 7.5, 10.0)
 
 
@@ -98,7 +90,7 @@ def synthesise(design: Design, limits: DriveLimits, catalogue: Catalogue | None 
     law = CamLaw(compression, stiffness, ours.lift_rad, ours.ramp_rad, spring.preload_rad, ours.ease_rad)
     motors = [catalogue.motors[name] for name in limits.motors or tuple(catalogue.motors)]
     refusal: CannotBuildError | None = None
-    for width in limits.face_widths_mm:
+    for width in FACE_WIDTHS_MM:
         beside = replace(limits, train=replace(limits.train, face_width_mm=width))
         try:
             cam, train = _cam_and_train(law, motors, spring.outer_diameter_mm, beside)
@@ -167,15 +159,15 @@ def _dog(cam: Cam, limits: DriveLimits) -> Dog:
 
 
 def _train_limits(cam: Cam, limits: DriveLimits) -> TrainLimits:
-    """Return the limits of motor and gears beside a cam."""
-    room = math.hypot(*cam.geometry.axis_mm) - limits.axle_radius_mm - limits.gap_mm
-    around = cam.outer_radius_mm + limits.gap_mm
+    """Return the limits of motor and gears beside a cam: its gear passes the leg's axle, an idler's axle the cam."""
+    room = math.hypot(*cam.geometry.axis_mm) - SPACER_RADIUS_MM - CLEAR_MM
+    around = cam.outer_radius_mm + CLEAR_MM
     _, window = clear_window_rad(cam.geometry)
     play = float(free_play_rad(cam.roll_over_rad, limits.cam.play_rad))
     turn = max(window - play - PLAY_MORE_RAD, LEAST_TURN_RAD)
     train = limits.train
     return replace(
         train, cam_gear_tip_max_mm=min(train.cam_gear_tip_max_mm, room), cam_room_mm=max(train.cam_room_mm, around),
-        idler_distance_min_mm=max(train.idler_distance_min_mm, around + limits.axle_radius_mm),
+        idler_distance_min_mm=max(train.idler_distance_min_mm, around + SPACER_RADIUS_MM),
         cam_speed_max_rad_s=min(train.cam_speed_max_rad_s, turn / limits.fall_s),
     )  # fmt: skip

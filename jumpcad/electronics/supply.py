@@ -5,7 +5,7 @@ in series with a resistance r turns the unloaded shaft with (U - I_0·(R + r))/k
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from jumpcad.catalogue import Battery, Board, Catalogue, Component, Motor
 from jumpcad.workshop import BoughtParts, Workshop
@@ -21,13 +21,13 @@ class Chosen:
     battery: Battery
     controller: Board
     driver: Board
-    regulator: Board | None
-    components: dict[str, Component]
+    regulator: Board | None = None
+    components: dict[str, Component] = field(default_factory=dict)
     gyroscope: Board | None = None
 
     @property
     def boards(self) -> dict[str, Board]:
-        """Every board by its role."""
+        """The boards by their roles, in the order in which they lie on the upper tray, from the back."""
         boards = {"controller": self.controller, "driver": self.driver, "regulator": self.regulator,
                   "gyroscope": self.gyroscope}  # fmt: skip
         return {role: board for role, board in boards.items() if board}

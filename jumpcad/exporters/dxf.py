@@ -36,7 +36,7 @@ def dxf_files(robot: Robot) -> Iterator[tuple[str, str]]:
 
 def sheet(part: Part, thickness_mm: float) -> tuple[Region, Region]:
     """Return the region of a plate half way through it, and what is engraved into its outside, seen from there."""
-    shape = part.drawing.shape
+    shape = part.shape
     assert isinstance(shape, Stack)
     region, engraved = shape.regions_at([thickness_mm / 2.0, 0.99 * ENGRAVING_MM])
     # the outside lies on the bed

@@ -15,7 +15,7 @@ import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.raster import with_normals
 from jumpcad.scene.visuals import Colour, visuals

@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from jumpcad.files import Record, TomlTable
-from jumpcad.mechanism.model import Mechanism
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.model import BodyName, JointName, Mechanism, release_pose
 
 Length = Annotated[float, Field(ge=-10, le=10)]
 Angle = Annotated[float, Field(ge=-20, le=20)]
@@ -16,10 +15,7 @@ Radius = Annotated[float, Field(ge=0, le=0.1)]
 Point = Annotated[tuple[Length, Length, Length], Field(strict=False)]
 Corner = Annotated[tuple[Length, Length], Field(strict=False)]
 Outline = Annotated[list[Corner], Field(min_length=3, max_length=1000)]
-JointName = Literal["leg", "front", "ankle"]
-BodyName = Literal["body", "main_leg", "front_link", "foot"]
 
-JOINTS: tuple[JointName, ...] = ("leg", "front", "ankle")
 OWN = "stop", "roller_off", "friction"
 """Attributes of `Mechanism` that only printed robots have, and their names in the file."""
 

@@ -22,9 +22,8 @@ import numpy as np
 
 from jumpcad.exporters.xml import Value, allowed, friction_nm, limits, written, wxyz
 from jumpcad.files.templates import fill
-from jumpcad.mechanism.model import BODY, Joint, Mechanism, Multibody
+from jumpcad.mechanism.model import BODY, Joint, Mechanism, Multibody, ReleasePose, body_poses, release_pose, standing
 from jumpcad.mechanism.planar import leg_inertia_kg_m2
-from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
 from jumpcad.settings import Settings, coefficients
 from jumpcad.transforms import Array, rotation_about_y
 

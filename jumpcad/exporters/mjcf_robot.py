@@ -18,8 +18,7 @@ from jumpcad.exporters.mjcf import CONTACT_IMPEDANCE, FREE_RAD, IMPEDANCE, SUBST
 from jumpcad.exporters.steered import WHEEL, on_its_wheel, steered, wheel_of
 from jumpcad.exporters.xml import Value, allowed, shortened, wxyz
 from jumpcad.files.templates import fill, render
-from jumpcad.mechanism.model import BODY, FOOT, Body, Mechanism
-from jumpcad.mechanism.poses import release_pose, standing
+from jumpcad.mechanism.model import BODY, FOOT, Body, Mechanism, release_pose, standing
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.limits import steers
 from jumpcad.scene.visuals import Colour, Visual, visuals

@@ -20,8 +20,7 @@ from jumpcad.exporters.steered import WHEEL, steered
 from jumpcad.exporters.urdf import cage_cylinders, tree
 from jumpcad.exporters.xml import shortened
 from jumpcad.files import templates_folder
-from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism
-from jumpcad.mechanism.poses import body_poses, standing
+from jumpcad.mechanism.model import BODY, BODY_NAMES, Mechanism, body_poses, standing
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Settings, coefficients
@@ -37,34 +36,6 @@ SLIM = 0.6
 """Radius of the links' capsules over the height of the ankle; judgement."""
 SLIM_TOE = 0.8
 """Radius of the toes' capsules over that of their spheres; judgement."""
-STEERING = {
-    "STEER_MANAGER": """
-    steer:
-      type: forward_command_controller/ForwardCommandController""",
-    "STEER_CONTROLLER": """
-steer:
-  ros__parameters:
-    joints:
-      - steer
-    interface_name: velocity
-""",
-    "STEER_JOINT": """    <joint name="steer">
-      <command_interface name="velocity" />
-      <state_interface name="position" />
-      <state_interface name="velocity" />
-    </joint>
-""",
-    "WHEEL_GAZEBO": """  <gazebo reference="wheel">
-    <mu1>@FOOT_FRICTION@</mu1>
-    <mu2>@FOOT_FRICTION@</mu2>
-  </gazebo>
-""",
-    "STEER_SPAWNER": '", "steer',
-    "STEER_README": """- **The steering wheel.** The controller `steer` turns it (rad/s), and with it the loaded robot:
-  `ros2 topic pub -1 /steer/commands std_msgs/msg/Float64MultiArray "{data: [3.0]}"`.
-""",
-}
-"""What a package says of a robot with a steering wheel, by its words; nothing of others."""
 CLEAR_M = 0.001
 """Clearance between the body's box and the ground in the loaded pose; judgement."""
 
@@ -103,12 +74,12 @@ def ros2_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
         **{f"{name.upper()}_FRICTION": f"{rubs.contact(body.surface):g}" for name, body in robot.bodies.items()},
         "SPRING_REFERENCE": f"{robot.spring.preload_rad:.9g}",
         "SPRING_STIFFNESS": f"{robot.spring.stiffness_nm_per_rad:.9g}",
-        **{name: text if WHEEL in whole.bodies else "" for name, text in STEERING.items()},
     }
-    words = {name: re.sub("@([A-Z_]+)@", lambda found: words[found[1]], text) for name, text in words.items()}
+    wheel = r"\1" if WHEEL in whole.bodies else ""  # @WHEEL@...@END@ is for robots that have one
     templates = templates_folder() / "ros2"  # with @WORDS@ to be replaced, in their names too; pip compiles its *.py
     for file in sorted(path for path in templates.rglob("*") if path.is_file() and path.suffix != ".pyc"):
-        texts = file.relative_to(templates).as_posix(), file.read_text(encoding="utf-8")
+        raw = file.relative_to(templates).as_posix(), file.read_text(encoding="utf-8")
+        texts = (re.sub("@WHEEL@(.*?)@END@", wheel, one, flags=re.DOTALL) for one in raw)
         path, text = (re.sub("@([A-Z_]+)@", lambda found: words[found[1]], one) for one in texts)
         yield f"{folder}/{path}", text
     for mesh, shape in {shape.mesh_name: shape.mesh for shape in visible}.items():
@@ -160,10 +131,10 @@ def _links(robot: Robot, visible: Sequence[Visual], mimics: dict[str, Mimic], me
 
 def capsules(mechanism: Mechanism, body: str) -> Iterator[Capsule]:
     """Yield the capsules of a link; the foot has one for each toe too, the body none."""
-    design, origin = mechanism.design, np.zeros(3)
+    origin = np.zeros(3)
     radius = round(SLIM * mechanism.foot_depth_m, 6)
-    lengths = dict(zip(BODY_NAMES, (0.0, design.l2_mm, design.l3_mm, design.l4_mm), strict=True))
-    if lengths.get(body):
+    lengths = dict(zip(BODY_NAMES[1:], mechanism.design.links_mm, strict=False))
+    if body in lengths:
         yield Capsule(origin, np.array([lengths[body] / 1000.0, 0.0, 0.0]), radius)
     for toe in (one for one in mechanism.bodies[body].contacts if one.surface == "foot" and one.centre_m[0] < 0.0):
         yield Capsule(origin, np.round(toe.centre_m, 6), min(radius, round(SLIM_TOE * toe.radius_m, 6)))

@@ -13,9 +13,8 @@ from jumpcad.dimensions import MESHES_FROM_BESIDE
 from jumpcad.exporters.steered import steered
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.templates import fill
-from jumpcad.mechanism.model import Joint, Mechanism
+from jumpcad.mechanism.model import Joint, Mechanism, body_poses
 from jumpcad.mechanism.planar import leg_inertia_kg_m2
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Coefficients, Settings, coefficients

@@ -11,8 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism
-from jumpcad.mechanism.poses import ReleasePose
+from jumpcad.mechanism.model import BODY, Body, ContactSphere, Joint, Mechanism, ReleasePose
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.drawing import WHEEL_PARTS
 from jumpcad.robot.steering.limits import steers
@@ -44,13 +43,11 @@ def steered(mechanism: AnyMechanism, visible: Sequence[Visual] = ()) -> tuple[An
         if part.name in WHEEL_PARTS:
             turning += [part.mass.placed(in_metres(one.T_body_part)) for one in part.placements]
     whole, wheel = mechanism.bodies[BODY], combined(turning)
-    carried = MassProperties(whole.mass_kg, whole.com_m, whole.inertia_kg_m2)
-    rest = combined([carried, MassProperties(-wheel.mass_kg, wheel.com_m, -wheel.inertia_kg_m2)])
-    seen = wheel.placed(T_wheel_body)
+    rest = combined([whole, MassProperties(-wheel.mass_kg, wheel.com_m, -wheel.inertia_kg_m2)])
     touches = ContactSphere("rim", np.zeros(3), place.radius_mm / 1000.0, "foot")
     bodies = dict(mechanism.bodies)
-    bodies[BODY] = replace(whole, mass_kg=rest.mass_kg, com_m=rest.com_m, inertia_kg_m2=rest.inertia_kg_m2)
-    bodies[WHEEL] = Body(WHEEL, seen.mass_kg, seen.com_m, seen.inertia_kg_m2, (touches,))
+    bodies[BODY] = replace(whole, **vars(rest))
+    bodies[WHEEL] = Body.of(WHEEL, wheel.placed(T_wheel_body), (touches,))
     drive = steers(mechanism)
     tilt = -np.radians(place.turn_deg)
     low, high = mechanism.workshop.release.rotor_kg_m2

@@ -173,7 +173,7 @@ def require_step() -> None:
 def step_files(robot: Robot) -> Iterator[tuple[str, bytes]]:
     """Yield path and content of every printed part's file."""
     for part in robot.parts:
-        yield f"step/{part.name}.step", write_step(part.drawing)
+        yield f"step/{part.name}.step", write_step(part)
 
 
 def write_step(drawing: Drawing) -> bytes:

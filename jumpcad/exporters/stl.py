@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from jumpcad.printing.plates import Printable
+from jumpcad.parts.plates import Printable
 from jumpcad.robot.foot.pads import printed_pads
 from jumpcad.robot.robot import Robot
 from jumpcad.solids.stl import require_part, write_stl

@@ -21,9 +21,9 @@ from jumpcad.catalogue import Pad
 from jumpcad.exporters.xml import allowed
 from jumpcad.files import templates_folder
 from jumpcad.files.templates import fill, render
-from jumpcad.printing.plates import Printable, PrintPlate, brim_mm, packed
+from jumpcad.parts.plates import Printable, PrintPlate, brim_mm, packed
 from jumpcad.printing.prusaslicer import project_settings
-from jumpcad.robot.foot.pads import printed_pads
+from jumpcad.robot.foot.pads import PrintedPad, printed_pads
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.scene.renderer import Renderer, View, png_of
 from jumpcad.scene.visuals import PRINTED_COLOURS, Colour
@@ -31,8 +31,6 @@ from jumpcad.transforms import in_metres
 from jumpcad.workshop import Workshop
 
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
-PADS = "pads"
-"""Kind of the plates of pads."""
 PICTURE, VIEW = (256, 256), View(yaw_deg=-70.0, pitch_deg=48.0)
 BED_MM = 1.0
 BED: Colour = (0.80, 0.81, 0.83)
@@ -43,35 +41,38 @@ def print_plates(robot: Robot) -> tuple[PrintPlate, ...]:
     """Return a robot's print plates, packed on its workshop's bed, those of pads last."""
     pads = printed_pads(robot.hardware, robot.workshop)
     plates = _packed(robot.parts, robot.workshop)
-    return (*plates, *(replace(plate, kind=PADS) for plate in _packed(pads, robot.workshop)))
+    return (*plates, *(replace(plate, kind="pads") for plate in _packed(pads, robot.workshop)))
 
 
 def threemf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of every print plate of a robot, and of `print/README.md`."""
-    kinds = {one.material: one.pad for one in printed_pads(robot.hardware, robot.workshop)}
-    yield from _files(print_plates(robot), robot.workshop, kinds)
+    yield from _files(print_plates(robot), robot.workshop)
 
 
 def plate_files(parts: Iterable[Printable], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of the print plates of parts, and of `print/README.md`."""
-    yield from _files(_packed(parts, workshop), workshop, {})
+    yield from _files(_packed(parts, workshop), workshop)
 
 
 def _packed(parts: Iterable[Printable], workshop: Workshop) -> list[PrintPlate]:
     return packed(parts, workshop.printer.bed_mm, workshop.process.part_spacing_mm)
 
 
-def _files(
-    plates: Sequence[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]
-) -> Iterator[tuple[str, str | bytes]]:
-    """Yield path and content of print plates, and of `print/README.md`; `kinds` are those of pads, by material."""
+def _files(plates: Sequence[PrintPlate], workshop: Workshop) -> Iterator[tuple[str, str | bytes]]:
+    """Yield path and content of print plates, and of `print/README.md`."""
     printer, process = workshop.printer, workshop.process
     for plate in plates:
-        pad = kinds[plate.material] if plate.kind == PADS else None
+        pad = _pad(plate)
         material = pad or workshop.materials[plate.material]
         settings = project_settings(printer, process, material, pad.name if pad else plate.material)
         yield f"print/{plate.name}.3mf", write_threemf(plate, settings, thumbnail(plate, printer.bed_mm))
-    yield "print/README.md", _in_words(plates, workshop, kinds)
+    yield "print/README.md", _in_words(plates, workshop)
+
+
+def _pad(plate: PrintPlate) -> Pad | None:
+    """Return the kind of pad that a plate has; None for one of parts."""
+    first = plate.items[0].part
+    return first.pad if isinstance(first, PrintedPad) else None
 
 
 def write_threemf(plate: PrintPlate, settings: Mapping[str, str], picture: bytes) -> bytes:
@@ -109,13 +110,13 @@ def _object(number: int, part: Printable, copies: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _in_words(plates: Sequence[PrintPlate], workshop: Workshop, kinds: Mapping[str, Pad]) -> str:
-    """Return the text of `print/README.md`; `kinds` are those of pads, by material."""
+def _in_words(plates: Sequence[PrintPlate], workshop: Workshop) -> str:
+    """Return the text of `print/README.md`."""
     told = [
         {
             "name": plate.name,
             "material": plate.material,
-            "pad": kinds[plate.material] if plate.kind == PADS else None,
+            "pad": _pad(plate),
             "heats": workshop.materials.get(plate.material),
             "copies": Counter(placed.part.name for placed in plate.items),
         }

@@ -8,28 +8,24 @@ collision shapes are the contact spheres, and cylinders along the cage.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from jumpcad.collision.hulls import Capsule, cage_capsules
 from jumpcad.dimensions import MESH_FOLDER
 from jumpcad.exporters.loop_file import write_loop
+from jumpcad.exporters.steered import steered
 from jumpcad.exporters.xml import allowed, friction_nm, limits, rpy, written
 from jumpcad.files.templates import fill
 from jumpcad.mechanism.mass import principal_axes
 from jumpcad.mechanism.model import BODY, Mechanism
+from jumpcad.robot.robot import Robot
+from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.settings import Settings, coefficients
-
-if TYPE_CHECKING:
-    from jumpcad.collision.hulls import Capsule
-    from jumpcad.robot.robot import Robot
-    from jumpcad.scene.visuals import Visual
+from jumpcad.solids.stl import write_stl
 
 
-def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
+def urdf_files(robot: Robot) -> Iterator[tuple[str, str | bytes]]:
     """Yield path and content of the visible meshes, of the URDF and of the loop file beside it."""
-    from jumpcad.exporters.steered import steered
-    from jumpcad.scene.visuals import visuals
-    from jumpcad.solids.stl import write_stl
-
     visible = visuals(robot)
     for name, mesh in {shape.mesh_name: shape.mesh for shape in visible}.items():
         yield f"urdf/{MESH_FOLDER}/{name}.stl", write_stl(mesh)
@@ -37,7 +33,7 @@ def urdf_files(robot: "Robot") -> "Iterator[tuple[str, str | bytes]]":
     yield f"urdf/{robot.name}.loop.json", write_loop(robot)
 
 
-def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings: Settings | None = None) -> str:
+def write_urdf(mechanism: Mechanism, visible: Sequence[Visual] = (), settings: Settings | None = None) -> str:
     """Return the URDF document of a mechanism; its joints have the settings' damping and dry friction.
 
     `visible` are its visible meshes, from `jumpcad.scene.visuals`.
@@ -48,10 +44,10 @@ def write_urdf(mechanism: Mechanism, visible: "Sequence[Visual]" = (), settings:
 
 def tree(
     mechanism: Mechanism,
-    visible: "Sequence[Visual]",
+    visible: Sequence[Visual],
     settings: Settings,
     meshes: str,
-    cylinders: "Mapping[str, Mapping[str, Capsule]]",
+    cylinders: Mapping[str, Mapping[str, Capsule]],
     values: dict[str, Any],
     leg: Mapping[str, float] | None = None,
 ) -> str:
@@ -75,8 +71,6 @@ def tree(
     return allowed(fill("urdf/tree.xml.j2", {"base": "", "box": None, "mimics": {}} | common | values))
 
 
-def cage_cylinders(mechanism: Mechanism) -> "dict[str, Capsule]":
+def cage_cylinders(mechanism: Mechanism) -> dict[str, Capsule]:
     """Return the cage's rods and bars, which touch the ground, by name."""
-    from jumpcad.collision.hulls import cage_capsules
-
     return {f"cage_{number}": capsule for number, capsule in enumerate(cage_capsules(mechanism), start=1)}

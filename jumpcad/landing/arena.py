@@ -14,8 +14,7 @@ from jumpcad.collision.hulls import CAGE
 from jumpcad.exporters.mjcf_robot import STEP_S, write_robot
 from jumpcad.exporters.steered import WHEEL
 from jumpcad.landing.obstacles import BOX, Obstacle
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
-from jumpcad.mechanism.poses import body_poses, release_pose
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, body_poses, release_pose
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.limits import steers
 from jumpcad.robot.steering.place import Steering

@@ -15,9 +15,20 @@ import numpy.typing as npt
 
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
+from jumpcad.findings import higher, lower
 from jumpcad.transforms import Array
 
 Complex = npt.NDArray[np.complex128]
+LONGER_BODY = higher("d_coef", "carrying_link_mm", note="a longer body")
+SHORTER_BODY = lower("carrying_link_mm", "d_coef")
+LEGS_APART = lower("compression_ratio") + higher("d_coef", "rest_angle_deg")
+FARTHER_PAST_REST = lower("rest_angle_deg") + higher("d_coef", "c_coef")
+SMALLER_LINKS = {
+    "main_leg": lower("carrying_link_mm"), "front_link": lower("carrying_link_mm", "c_coef"),
+    "foot": lower("carrying_link_mm", "d_coef", "e_coef"), "toe": lower("carrying_link_mm", "e_coef"),
+}  # fmt: skip
+"""What to change of a design: for more and for less room between the pivots, for legs that keep apart, for legs that
+turn farther past rest, for smaller links by the beginnings of their names."""
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,8 @@ threads: the same robot has the same bytes everywhere.
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
-import numpy.typing as npt
 
 from jumpcad.transforms import Array, ByValue
 
@@ -22,12 +20,6 @@ class MassProperties(ByValue):
     mass_kg: float
     com_m: Array
     inertia_kg_m2: Array
-
-    @classmethod
-    def box(cls, mass_kg: float, size_m: npt.ArrayLike) -> Self:
-        """Return a uniform box of edge lengths (3,) about its centre."""
-        x, y, z = np.asarray(size_m, dtype=float) ** 2
-        return cls(mass_kg, np.zeros(3), mass_kg / 12.0 * np.diag([y + z, x + z, x + y]))
 
     def placed(self, transform: Array) -> "MassProperties":
         """Return the same body seen from a frame in which this frame is `transform` (4, 4), lengths in m."""

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import JumpcadError
+from jumpcad.mechanism.mass import MassProperties
 from jumpcad.transforms import Array, ByValue, chained, pose_at, rotation_about_y
 
 Surface = Literal["foot", "body"]
@@ -36,14 +37,16 @@ class ContactSphere(ByValue):
 
 
 @dataclass(frozen=True, eq=False)
-class Body(ByValue):
-    """A rigid body: mass, centre of mass (3,) and inertia tensor (3, 3) about it, both along the body frame's axes."""
+class Body(MassProperties):
+    """A rigid body, in its own frame."""
 
     name: str
-    mass_kg: float
-    com_m: Array
-    inertia_kg_m2: Array
     contacts: tuple[ContactSphere, ...] = ()
+
+    @classmethod
+    def of(cls, name: str, mass: MassProperties, contacts: tuple[ContactSphere, ...] = ()) -> "Body":
+        """Return a body of some mass, with its centre and inertia."""
+        return cls(mass.mass_kg, mass.com_m, mass.inertia_kg_m2, name, contacts)
 
     @property
     def surface(self) -> Surface:

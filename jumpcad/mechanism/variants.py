@@ -73,10 +73,10 @@ def capsule_robot(design: Design) -> Mechanism:
         ContactSphere("front_pivot", front_pivot, radius, "body"),
     )
     bodies = (
-        _body(BODY, capsule(BODY_MASS_KG, radius, back_pivot, front_pivot), body_contacts),
-        _body(MAIN_LEG, link(np.array([l2, 0.0, 0.0]))),
-        _body(FRONT_LINK, link(np.array([l3, 0.0, 0.0]))),
-        _body(FOOT, foot, foot_contacts),
+        Body.of(BODY, capsule(BODY_MASS_KG, radius, back_pivot, front_pivot), body_contacts),
+        Body.of(MAIN_LEG, link(np.array([l2, 0.0, 0.0]))),
+        Body.of(FRONT_LINK, link(np.array([l3, 0.0, 0.0]))),
+        Body.of(FOOT, foot, foot_contacts),
     )
     joints, loop, spring = five_bar(linkage_of(design), (-design.compression_rad, 0.0), design.peak_spring_torque_nm)
     named = {body.name: body for body in bodies}
@@ -98,10 +98,6 @@ def capsule(mass_kg: float, radius_m: float, start_m: npt.ArrayLike, end_m: npt.
     across = cylinder * (radius_m**2 / 4 + length**2 / 12) + ball + caps * length * (length / 4 + 3 / 8 * radius_m)
     inertia = across * np.eye(3) + (along - across) * np.outer(axis, axis)
     return MassProperties(mass_kg, (start + end) / 2, inertia)
-
-
-def _body(name: str, mass: MassProperties, contacts: tuple[ContactSphere, ...] = ()) -> Body:
-    return Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
 
 
 Robot = TypeVar("Robot", bound=Mechanism)

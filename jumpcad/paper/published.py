@@ -86,7 +86,7 @@ class _Geometry:
 
 def _geometry(design: Design) -> _Geometry:
     """Compute in mm and divide last, angles as x·π/180: other roundings move some distances by up to 1e-4 m."""
-    l2, l3, l4, l5 = design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm
+    l2, l3, l4, l5 = design.links_mm
     rest = design.rest_angle_deg * math.pi / 180.0
     if l3 == l2:
         beta, l1 = 0.0, l4

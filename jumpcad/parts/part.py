@@ -1,10 +1,11 @@
 """A printed part: a shape in printing orientation, and the places where it sits on the robot.
 
 Parts are drawn where they belong, in the x-z plane of their body's frame and over intervals of y (all mm), and then
-laid on the bed on their left or right face. What a bundle says of a part's mass is here too.
+laid on the bed on their left or right face: along its sides, or at an angle where they are too long for that. What a
+bundle says of a part's mass is here too.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Annotated, Literal, TypeAlias
@@ -13,9 +14,11 @@ import numpy as np
 from manifold3d import Manifold
 from pydantic import Field, StrictFloat, StrictInt
 
+from jumpcad.errors import CannotBuildError
 from jumpcad.files.records import Text
+from jumpcad.findings import lower
+from jumpcad.mechanism.linkage import SHORTER_BODY, SMALLER_LINKS
 from jumpcad.mechanism.mass import MassProperties
-from jumpcad.printing.bed import BedFit, fit_to_bed, require_bed
 from jumpcad.solids.blocks import Blocks
 from jumpcad.solids.outline import Region
 from jumpcad.solids.stack import Stack
@@ -28,6 +31,65 @@ UNSEEN_MM = 0.05
 """Size of detail that is left out of meshes for pictures; judgement: less than a pixel."""
 SHAPES_KEPT = 400
 """Shapes of which solids and meshes are kept, those of some 15 robots: most parts are those of the robot before."""
+ROUND_OFF_MM = 1e-6
+
+SMALLER = SMALLER_LINKS | {"cage_bar": lower("cage.rear_radius_mm", "cage.front_radius_mm")}
+SMALLER_BODY = (*SHORTER_BODY, "choose a smaller battery or boards")
+"""What to change where a part is too large, by the beginning of its name; other parts are the body's."""
+CAGED = (*lower("cage.front_ahead_mm", "cage.rear_behind_mm", note="shorter horns"), 'no cage (cage.rod = "")')
+
+
+@dataclass(frozen=True)
+class BedFit:
+    """A turn about z in whole degrees, and what is left of the bed at the tightest of its three sides (mm)."""
+
+    angle_deg: float
+    margin_mm: float
+
+
+def fit_to_bed(bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float]) -> BedFit:
+    """Return how a part fits the bed: along its sides if it can, else at an angle; the best if it does not fit.
+
+    Given are lower and upper corner of its bounding box, (2, 3), and the usable bed (x, y, z). `outline` gives points
+    (n, 2) that span its convex hull seen from above; it is asked only where the box does not fit.
+    """
+    x, y, z = (bounds_mm[1] - bounds_mm[0]).tolist()
+    bed_x, bed_y, bed_z = bed_mm
+    along = BedFit(0.0, min(bed_x - x, bed_y - y, bed_z - z)), BedFit(90.0, min(bed_x - y, bed_y - x, bed_z - z))
+    best = max(along, key=lambda fit: fit.margin_mm)
+    if best.margin_mm >= -ROUND_OFF_MM:
+        return best
+    for found in _at_angles(outline(), z, np.asarray(bed_mm)):
+        if found.margin_mm >= -ROUND_OFF_MM:
+            return found
+        best = max(best, found, key=lambda fit: fit.margin_mm)
+    return best
+
+
+def require_bed(
+    name: str, bounds_mm: Array, outline: Callable[[], Array], bed_mm: Sequence[float], caged: bool = False
+) -> BedFit:
+    """Return how a part lies on the bed; `caged` says whether body plates have horns for a cage."""
+    found = fit_to_bed(bounds_mm, outline, bed_mm)
+    if found.margin_mm < -ROUND_OFF_MM:
+        size, bed = ("×".join(f"{side:.1f}" for side in sides) for sides in (bounds_mm[1] - bounds_mm[0], bed_mm))
+        horns = CAGED if caged and name.startswith("body_plate") else ()
+        smaller = next((words for part, words in SMALLER.items() if name.startswith(part)), SMALLER_BODY)
+        raise CannotBuildError(
+            f"part {name} of {size} mm does not fit the bed of {bed} mm at any angle, by {-found.margin_mm:.1f} mm",
+            "bed", found.margin_mm, ways=("choose a larger printer in the workshop", *horns, *smaller),
+        )  # fmt: skip
+    return found
+
+
+def _at_angles(outline_mm: Array, height_mm: float, bed_mm: Array) -> Iterator[BedFit]:
+    """Yield the fit at each whole degree between 0° and 90°."""
+    angles = np.arange(1.0, 90.0)
+    cos, sin = np.cos(np.radians(angles))[:, None], np.sin(np.radians(angles))[:, None]
+    x, y = outline_mm.T
+    sides = np.stack([np.ptp(cos * x - sin * y, axis=1), np.ptp(sin * x + cos * y, axis=1)], axis=-1)
+    margins = np.minimum((bed_mm[:2] - sides).min(axis=1), bed_mm[2] - height_mm)
+    yield from map(BedFit, angles.tolist(), margins.tolist())
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,14 +145,11 @@ class Drawing(Shaped):
 
     def fit_to_bed(self, bed_mm: Sequence[float]) -> BedFit:
         """Return how the part fits a bed (x, y, z)."""
-        return fit_to_bed(self.shape.bounds_mm, self._outline_mm, bed_mm)
+        return fit_to_bed(self.shape.bounds_mm, lambda: self.shape.outline_mm, bed_mm)
 
     def require_bed(self, bed_mm: Sequence[float], caged: bool = False) -> None:
         """Reject a part that fits the bed at no angle; `caged`: body plates have horns."""
-        require_bed(self.name, self.shape.bounds_mm, self._outline_mm, bed_mm, caged)
-
-    def _outline_mm(self) -> Array:
-        return self.shape.outline_mm
+        require_bed(self.name, self.shape.bounds_mm, lambda: self.shape.outline_mm, bed_mm, caged)
 
 
 @lru_cache(SHAPES_KEPT)
@@ -136,36 +195,20 @@ def upright(z_mm: float, x_mm: float = 0.0, y_mm: float = 0.0) -> Array:
 
 
 @dataclass(frozen=True, repr=False)
-class Part(Shaped):
+class Part(Drawing):
     """A printed part: a drawing with its material, and the mass of one copy in its printing frame (kg, m).
 
     `mass_source` says where the mass came from: `printed` (layer model), `solid` (volume times density), `weighed`.
     """
 
-    drawing: Drawing
     material: str
     mass: MassProperties
     mass_source: Literal["printed", "solid", "weighed"]
 
     @property
-    def name(self) -> str:
-        """The part's name, also that of its files."""
-        return self.drawing.name
-
-    @property
-    def placements(self) -> tuple[Placement, ...]:
-        """Where its copies sit."""
-        return self.drawing.placements
-
-    @property
     def quantity(self) -> int:
         """How many copies the robot needs."""
-        return len(self.drawing.placements)
-
-    @cached_property
-    def shape(self) -> Shape:  # type: ignore[override]
-        """Its shape in printing orientation."""
-        return self.drawing.shape
+        return len(self.placements)
 
     @property
     def mass_kg(self) -> float:

@@ -16,6 +16,9 @@ from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire, tube
 from jumpcad.transforms import Array, ByValue, Trimesh, chained, in_metres, pose_about_z
 
+TIE, TIE_MM, TIE_G = "cable tie 2.5 x 100 mm, polyamide", (2.5, 1.1), 0.3
+"""Order text, width and thickness, mass; from memory."""
+
 
 @dataclass(frozen=True, repr=False, eq=False)
 class BoughtPart(Shaped, ByValue):

@@ -79,19 +79,11 @@ def slicer_version() -> str:
     return found[1]
 
 
-def slice_part(stl: Path, printer: Printer, process: Process, material: Material) -> Sliced:
-    """Slice one STL file with PrusaSlicer, in the middle of the bed."""
+def slice_model(model: Path, printer: Printer, process: Process, material: Material) -> Sliced:
+    """Slice an STL file in the middle of the bed, or a print plate of which every part stays where it lies."""
     centre = f"{printer.bed_mm[0] / 2.0:g},{printer.bed_mm[1] / 2.0:g}"
-    return _sliced(stl, ["--center", centre], slicer_settings(printer, process, material), material)
-
-
-def slice_plate(threemf: Path, printer: Printer, process: Process, material: Material) -> Sliced:
-    """Slice one print plate with PrusaSlicer, every part where it lies; errors are those of `slice_part`."""
-    return _sliced(threemf, ["--dont-arrange"], slicer_settings(printer, process, material), material)
-
-
-def _sliced(model: Path, place: list[str], asked: dict[str, str], material: Material) -> Sliced:
-    """Slice a model file with settings and read the result."""
+    place = ["--center", centre] if model.suffix == ".stl" else ["--dont-arrange"]
+    asked = slicer_settings(printer, process, material)
     with tempfile.TemporaryDirectory() as folder:
         config, output = Path(folder) / "config.ini", Path(folder) / "part.gcode"
         config.write_text("".join(f"{key} = {value}\n" for key, value in asked.items()), encoding="utf-8")

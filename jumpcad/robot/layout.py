@@ -8,21 +8,27 @@ from dataclasses import dataclass
 from typing import Literal, TypeVar
 
 from jumpcad import dimensions
-from jumpcad.catalogue import Bearing, Component, LegBar
+from jumpcad.catalogue import Bearing, LegBar
 from jumpcad.design import Design
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import cap_ear_mm
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import higher, lower
-from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.linkage import LEGS_APART, Linkage, toe_tip_mm
 from jumpcad.robot.electronics.fittings import Fittings, electronics_obstacle, fittings_of, standoff_places, tray_place
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.leg.place import PinHole, pin_hole
 from jumpcad.robot.sensor.place import SensorNeeds, SensorPlace, sensor_obstacle, sensor_place
 from jumpcad.robot.sizing import Sections, beside_leg_mm
-from jumpcad.robot.space.lateral import Lateral, lateral_stack
+from jumpcad.robot.space.inside import (
+    Lateral,
+    axle_obstacle,
+    cam_obstacles,
+    hub_obstacles,
+    lateral_stack,
+    legs_apart_mm,
+    swept_obstacles,
+)
 from jumpcad.robot.space.room import Obstacle, disc, shortfall
-from jumpcad.robot.space.sweep import axle_obstacle, cam_obstacles, hub_obstacles, legs_apart_mm, swept_obstacles
 from jumpcad.robot.springs.place import spring_boss_mm, spring_obstacles, spring_pin_place
 from jumpcad.robot.stop.place import GIVE_ROOM_RAD, StopPlace, stop_angle_rad, stop_obstacles, stop_place
 from jumpcad.robot.train.place import idler_obstacles, require_gear_room, require_shaft, train_obstacles, train_places
@@ -123,7 +129,7 @@ class Layout:
 def make_layout(
     linkage: Linkage, sections: Sections, drive: Drive, electronics: Electronics, workshop: Workshop, *,
     hub_bearing: Bearing | None, roller: Bearing, toes_apart: bool, plate_mm: float, leg_pin_hole_mm: float,
-    sensor: SensorNeeds | None = None, switch: Component | None = None,
+    sensor: SensorNeeds | None = None,
 ) -> Layout:  # fmt: skip
     """Lay out a robot: the lateral stack first, then in the plane of motion one part after the other.
 
@@ -175,9 +181,7 @@ def make_layout(
     obstacles += [disc("standoff", place, dimensions.STANDOFF_PAD_MM / 2.0, inside) for place in standoffs]
     beside = [*seats.values(), stop.tab_mm]
     boss = spring_boss_mm(obstacles, spring_pin, axle_mm, lateral)
-    fittings = fittings_of(
-        obstacles, lateral, electronics, tray, switch, beside, axle_mm / 2.0 + dimensions.PAD_WALL_MM
-    )
+    fittings = fittings_of(obstacles, lateral, electronics, tray, beside, axle_mm / 2.0 + dimensions.PAD_WALL_MM)
     return Layout(
         linkage=linkage, sections=sections, drive=drive, lateral=lateral, electronics=electronics,
         hub_bearing=hub_bearing, toes_apart=toes_apart, axle_mm=axle_mm, retention=bought.retention,
@@ -206,5 +210,5 @@ def _require_legs_apart(linkage: Linkage, sections: Sections, gap_mm: float) -> 
         raise CannotBuildError(
             f"main leg and front link {lie} {abs(apart_mm):.2g} mm; {gap_mm:g} mm between them are needed, "
             f"{shortfall(room)} more than there is",
-            "legs_apart", room, ways=lower("compression_ratio") + higher("d_coef", "rest_angle_deg"),
+            "legs_apart", room, ways=LEGS_APART,
         )  # fmt: skip

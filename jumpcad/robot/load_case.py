@@ -3,7 +3,6 @@
 x-z in the body's frame, y to the left.
 """
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -124,10 +123,7 @@ class LoadCase:
     @cached_property
     def forces(self) -> loads.PushOffForces:
         """Forces of the push-off, with the body's mass and inertia."""
-        body = self.robot.bodies[BODY]
-        gyration = 1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)
-        mass = loads.MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], gyration)
-        return loads.push_off(self.robot.linkage, mass, self.robot.spring)
+        return loads.push_off(self.robot.linkage, self.robot.bodies[BODY], self.robot.spring)
 
     @cached_property
     def toes_n(self) -> float:
@@ -146,10 +142,10 @@ class LoadCase:
 
     @cached_property
     def landing_n(self) -> float:
-        """Mean force of a landing from as high as the springs' energy could lift the robot (N)."""
-        mass = self.robot.mass_kg
-        rise_m = self.robot.spring.energy_j / (mass * GRAVITY_M_S2)
-        return loads.landing_force_n(self.robot.design, mass, self.workshop.safety.landing_stop_mm, rise_m)
+        """Mean force of a landing from as high as the springs' energy could lift the robot, m·g·(drop + stop)/stop."""
+        weight = self.robot.mass_kg * GRAVITY_M_S2
+        drop_m = self.robot.spring.energy_j / weight
+        return 1000.0 * weight * drop_m / self.workshop.safety.landing_stop_mm + weight
 
     @cached_property
     def toe_blow_n(self) -> float:

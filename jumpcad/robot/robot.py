@@ -1,21 +1,22 @@
-"""`Robot`: a mechanism with the printed and bought parts that it is made of, its layout, and the workshop."""
+"""`Robot`: a mechanism with its parts, layout and workshop. `Thing`: what one folder of `jumpcad.robot` offers it."""
 
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeVar
 
 from jumpcad.drive.release import Release
 from jumpcad.electronics.nets import Wiring, wiring_of
-from jumpcad.electronics.supply import Chosen, Supply, chosen_parts, supply_of
+from jumpcad.electronics.supply import Supply, supply_of
 from jumpcad.errors import JumpcadError
 from jumpcad.files.complaints import shown
 from jumpcad.files.outputs import DEVICE
+from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism.model import Mechanism
-from jumpcad.parts.part import Part
+from jumpcad.parts.part import Drawing, Part
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.layout import Layout
 from jumpcad.strength.growth import Grown
@@ -47,19 +48,14 @@ class Robot(Mechanism):
     grown: tuple[Grown, ...] = field(default=(), compare=False)
 
     @cached_property
-    def electrical_parts(self) -> Chosen:
-        """Battery, boards and small electrical parts of its workshop."""
-        return chosen_parts(self.workshop)
-
-    @cached_property
     def supply(self) -> Supply:
         """Voltages and currents of its battery and boards."""
-        return supply_of(self.electrical_parts)
+        return supply_of(self.layout.electronics)
 
     @cached_property
     def wiring(self) -> Wiring:
         """The net list of its electrical parts."""
-        return wiring_of(self.electrical_parts, self.workshop.bought.pins, self.workshop.steering.wheel != "none")
+        return wiring_of(self.layout.electronics, self.workshop.bought.pins, self.workshop.steering.wheel != "none")
 
     def __copy__(self) -> Self:
         """Return the robot itself: it does not change."""
@@ -80,6 +76,35 @@ class Robot(Mechanism):
 
         def show(self) -> Path | None:
             """Show the robot's page; `jumpcad.notebook` gives this method to the class."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """A function that returns findings, limits that are met included, and what they are about.
+
+    `find` takes what the check `needs` (a Mechanism, or a Robot with its parts) and returns findings, whose names are
+    in `basis`. A `cheap` check looks at no mesh and at no motion, takes about a millisecond, and runs for every design
+    of a search.
+    """
+
+    find: Callable[[Any], Iterable[Finding]]
+    basis: Mapping[str, Basis]
+    needs: type[Mechanism] = Robot
+    cheap: bool = True
+
+
+@dataclass(frozen=True)
+class Thing:
+    """A thing on the robot, one folder of `jumpcad.robot`.
+
+    `draw` yields its printed parts and `bought` its bought ones. `checks` are its limits. `place` returns where it is
+    on a machine that has its place already, or None where a robot goes without; the layout then has it (`Layout.of`).
+    """
+
+    draw: Callable[[Layout, Workshop], Iterable[Drawing]] = lambda layout, workshop: ()
+    bought: Callable[[Layout, Workshop], Iterable[BoughtPart]] = lambda layout, workshop: ()
+    checks: tuple[Check, ...] = ()
+    place: Callable[[Layout, Workshop], object | None] = lambda layout, workshop: None
 
 
 def decided_once(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:

@@ -15,6 +15,7 @@ from jumpcad.design import Design
 from jumpcad.dimensions import GAP_MM, STOP_PAD_MM, STOP_SEAT_MM, TOE_TIP_WIDTH_MM
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import Spring
 from jumpcad.strength import loads
 from jumpcad.strength.growth import Growth, grown_mm, in_hundredths
@@ -30,8 +31,9 @@ from jumpcad.strength.stress import (
 )
 from jumpcad.workshop import Fits, Workshop
 
-TYPICAL_BODY = loads.MovingMass(0.1, np.array([0.0, 17.0]), 42.0)
-"""The body's mass properties before its parts are known; the templates have 90 to 112 g and 31 to 44 mm."""
+TYPICAL_BODY = MassProperties(0.1, np.array([0.0, 0.0, 0.017]), 0.1 * np.diag([0.0, 0.042**2, 0.0]))
+"""The body's mass properties before its parts are known, as far as motion in the plane depends on them; the templates
+have 90 to 112 g, and 31 to 44 mm of radius of gyration."""
 RESERVE = 1.15
 """Factor on every load, since masses and the lever are not known yet; judgement."""
 AXIAL_RESERVE = 1.2
@@ -187,14 +189,14 @@ def _socket_mm(workshop: Workshop) -> tuple[float, float]:
     return in_hundredths(bar.height_mm + gap + 2.0 * fits.wall_mm), bar.width_mm + gap + 2.0 * fits.wall_min_mm
 
 
-def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring | None = None) -> float:
+def leg_flex_share(design: Design, leg: Beam, modulus_mpa: float, springs: Spring) -> float:
     """Return the energy that bends the leg at release as a share of the springs'.
 
     The moment is taken to fall evenly from the hub to the ankle: an upper bound, since the springs' arms press on the
-    leg a little beyond the hub. Without springs they are the design's.
+    leg a little beyond the hub.
     """
-    springs = springs or springs_on_leg(design)
-    energy = tapered_energy_nmm(leg, 1000.0 * springs.peak_torque_nm, design.l2_mm, modulus_mpa)
+    stiffness = np.asarray(modulus_mpa * leg.second_moment_mm4)
+    energy = tapered_energy_nmm(stiffness, 1000.0 * springs.peak_torque_nm, design.l2_mm)
     return energy / (1000.0 * springs.energy_j)
 
 

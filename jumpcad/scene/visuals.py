@@ -14,7 +14,7 @@ import manifold3d
 import numpy as np
 import numpy.typing as npt
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.parts.part import Part, Shape
 from jumpcad.parts.purchased import BoughtPart
 from jumpcad.robot.robot import Robot, decided_once
@@ -85,7 +85,7 @@ def visuals(robot: Robot) -> tuple[Visual, ...]:
     for part in robot.parts:
         for number, place in enumerate(part.placements, start=1):
             name = part.name if part.quantity == 1 else f"{part.name}_{number}"
-            colour = PRINTED_COLOURS[part.drawing.role]
+            colour = PRINTED_COLOURS[part.role]
             found.append(Visual(name, part.name, place.body, in_metres(place.T_body_part), colour, part))
     for item in robot.hardware:
         label = f"{item.article} {item.name}".lower()
@@ -164,7 +164,7 @@ def extent_m(robot: Robot) -> Array:
     poses = body_poses(robot)
     pieces: list[tuple[Shape, str, Array]] = [(item.shape, item.body, item.T_body_part) for item in robot.hardware]
     for part in robot.parts:
-        pieces += [(part.drawing.shape, place.body, place.T_body_part) for place in part.placements]
+        pieces += [(part.shape, place.body, place.T_body_part) for place in part.placements]
     of_bodies, of_pieces = np.array([poses[body] for _, body, _ in pieces]), np.array([pose for *_, pose in pieces])
     boxes = _boxes_m(np.array([shape.bounds_mm for shape, *_ in pieces]), of_bodies, of_pieces)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)

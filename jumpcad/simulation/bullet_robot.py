@@ -6,8 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from jumpcad.mechanism.mass import principal_axes
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism
-from jumpcad.mechanism.poses import ReleasePose, release_pose
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, Body, Joint, Mechanism, ReleasePose, release_pose
 from jumpcad.settings import Coefficients, Settings, coefficients
 from jumpcad.strength.loads import pin_torque_nm
 from jumpcad.transforms import quaternion_about_y, rotation_about_y

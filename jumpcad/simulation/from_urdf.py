@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from jumpcad.collision.hulls import CAGE
 from jumpcad.design import Design
 from jumpcad.errors import JumpcadError
-from jumpcad.exporters.loop_file import JOINTS, LoopFile
+from jumpcad.exporters.loop_file import LoopFile
 from jumpcad.exporters.steered import STEER, WHEEL
 from jumpcad.files import read_bytes, read_json
 from jumpcad.files.complaints import shown
@@ -53,12 +53,12 @@ def robot_from_urdf(path: Path) -> model.Mechanism:
     with _named_file(path):
         root = _parsed(content)
         wheel = _taken_wheel(root)
-        links, joints = _named(root, "link", model.BODY_NAMES), _named(root, "joint", JOINTS)
+        links, joints = _named(root, "link", model.BODY_NAMES), _named(root, "joint", model.JOINT_NAMES)
         loop = extra.loop
         mechanism = model.Mechanism(
             name=_text(root, "name"), design=design,
             bodies={name: _body(links[name], extra.surfaces, wheel) for name in model.BODY_NAMES},
-            joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in JOINTS),
+            joints=tuple(_joint(joints[name], extra.travel_rad[name]) for name in model.JOINT_NAMES),
             loops=(model.Loop(loop.body_a, np.array(loop.point_a_m), loop.body_b, np.array(loop.point_b_m)),),
             springs=(model.Spring(**extra.spring.model_dump(exclude={"rest_rad"})),), foot_depth_m=extra.foot_depth_m,
             stop=model.Stop(**extra.stop.model_dump()) if extra.stop else None,
@@ -120,7 +120,7 @@ def _taken_wheel(root: ET.Element) -> MassProperties | None:
         links[0].remove(collision)
     wheel, (origin_m, rpy) = _body(links[0], {}), _origin(joints[0], f"joint {STEER}")
     place = pose_at(Rotation.from_euler("xyz", rpy).as_matrix(), origin_m)
-    return MassProperties(wheel.mass_kg, wheel.com_m, wheel.inertia_kg_m2).placed(place)
+    return wheel.placed(place)
 
 
 def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | None = None) -> model.Body:
@@ -147,7 +147,7 @@ def _body(link: ET.Element, surfaces: dict[str, Any], wheel: MassProperties | No
         raise JumpcadError(f"{name}: two collisions have the same name")
     mass = MassProperties(mass_kg, com_m, np.einsum("ij,jk,lk->il", axes, tensor, axes))
     mass = combined([mass, wheel]) if wheel and name == model.BODY else mass
-    return model.Body(name, mass.mass_kg, mass.com_m, mass.inertia_kg_m2, contacts)
+    return model.Body.of(name, mass, contacts)
 
 
 def _require_inertia(name: str, mass_kg: float, tensor: Array) -> None:

@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from jumpcad.mechanism.linkage import Complex
-from jumpcad.mechanism.model import BODY_NAMES, Mechanism, Multibody, Spring
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism, Multibody, Spring, body_poses
 from jumpcad.mechanism.planar import leg_inertia_kg_m2, points
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.transforms import Array
 
 AIR_KG_M3 = 1.2

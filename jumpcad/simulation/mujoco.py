@@ -10,8 +10,7 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.exporters.mjcf import SUBSTEPS, write_mjcf
 from jumpcad.exporters.xml import friction_nm
-from jumpcad.mechanism.model import Mechanism, Multibody, Spring
-from jumpcad.mechanism.poses import ReleasePose, release_pose
+from jumpcad.mechanism.model import Mechanism, Multibody, ReleasePose, Spring, release_pose
 from jumpcad.settings import Settings, coefficients
 from jumpcad.simulation.engines import import_mujoco
 from jumpcad.simulation.mechanics import State, StopPad

@@ -13,8 +13,7 @@ import numpy as np
 from jumpcad.errors import JumpcadError
 from jumpcad.findings import Basis, Finding, limit
 from jumpcad.mechanism.linkage import Complex as ComplexArray
-from jumpcad.mechanism.model import BODY_NAMES, Mechanism
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.model import BODY_NAMES, Mechanism, release_pose
 from jumpcad.mechanism.variants import with_spring_factor
 from jumpcad.settings import Settings, takeoff_clearance_m
 from jumpcad.simulation import planar_kernel as kernel

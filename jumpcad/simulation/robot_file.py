@@ -82,8 +82,7 @@ class OwnBody(TomlTable):
         if self.mass_g is not None and self.inertia_gmm2 is not None:
             inertia = self.inertia_gmm2 * 1e-9 * np.eye(3)
             items.append(MassProperties(self.mass_g / 1000.0, _point(self.centre_mm), inertia))
-        whole = combined(items)
-        return model.Body(name, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
+        return model.Body.of(name, combined(items), contacts)
 
 
 class SpringTable(TomlTable):

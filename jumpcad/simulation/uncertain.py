@@ -131,7 +131,7 @@ def robust_figures(robot: Mechanism, settings: Settings, rate_scatter: float) ->
     settings, usual = divided(robot, settings), coefficients(robot, settings)
     pins_nm = pin_torque_nm(with_spring_factor(robot, settings.spring_efficiency), usual.pin)
     design = robot.design
-    errors_mm = LENGTH_SHARE * np.array([design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm])
+    errors_mm = LENGTH_SHARE * np.array(design.links_mm)
 
     def landed(point: Array) -> tuple[float, float]:
         made = with_spring_factor(robot, 1.0 + rate_scatter * float(point[6]))

@@ -8,7 +8,7 @@ import math
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -23,26 +23,8 @@ from jumpcad.transforms import Array
 Contours = list[Array]
 
 
-class Block(Protocol):
-    """One simple piece, z up from the bed."""
-
-    @property
-    def key(self) -> Hashable:
-        """The numbers that it is made of: equal pieces have equal keys."""
-
-    @property
-    def bounds_mm(self) -> Array:
-        """Lower and upper corner of the bounding box, (2, 3)."""
-
-    @property
-    def outline_mm(self) -> Array:
-        """Points (n, 2) that span its convex hull seen from above."""
-
-    def solid(self) -> Manifold:
-        """Return the piece as a solid."""
-
-    def contours_at(self, heights_mm: Array) -> list[Contours]:
-        """Return the outlines (k, 2), counter-clockwise, of the sections at heights (n,); they may overlap."""
+Block: TypeAlias = "Bar | Finger | Turned"
+"""One simple piece, z up from the bed."""
 
 
 @dataclass(frozen=True, eq=False)

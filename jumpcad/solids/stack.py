@@ -6,7 +6,7 @@ and what it shares with another stack all follow from the polygons, without a me
 
 import functools
 import itertools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,13 +33,9 @@ class Stack:
         """Return the union of slabs (z0, z1, region) that may overlap in every way."""
         return _arranged(slabs, ())
 
-    def plus(self, slabs: "Iterable[SlabLike] | Stack") -> "Stack":
-        """Return the union of this stack and more slabs."""
-        return _arranged((*self.slabs, *_listed(slabs)), ())
-
-    def minus(self, slabs: "Iterable[SlabLike] | Stack") -> "Stack":
+    def minus(self, slabs: Iterable[SlabLike]) -> "Stack":
         """Return this stack without slabs (z0, z1, region), such as bores, pockets and engravings."""
-        return _arranged(self.slabs, _listed(slabs))
+        return _arranged(self.slabs, slabs)
 
     def pocketed(self, pockets: Iterable[tuple[float, float, Region]]) -> "Stack":
         """Return this stack without pockets (z0, z1, region) on top of each other, with a wall around each.
@@ -61,26 +57,6 @@ class Stack:
     def through(self, *holes: Region) -> "Stack":
         """Return this stack with holes from bottom to top."""
         return self.minus([(self.z0_mm, self.z1_mm, hole) for hole in holes])
-
-    def moved(self, x_mm: float = 0.0, y_mm: float = 0.0, z_mm: float = 0.0) -> "Stack":
-        """Return the stack moved by a distance."""
-        return self._mapped(lambda region: region.translate((x_mm, y_mm)), lambda z: z + z_mm)
-
-    def rotated(self, angle_deg: float) -> "Stack":
-        """Return the stack turned counter-clockwise about z through the origin."""
-        return self._mapped(lambda region: region.rotate(angle_deg))
-
-    def mirrored(self) -> "Stack":
-        """Return the mirror image: y becomes -y."""
-        return self._mapped(lambda region: region.mirror((0.0, 1.0)))
-
-    def flipped(self) -> "Stack":
-        """Return the stack turned over about x and put back on the heights that it came from: y -> -y, top -> bottom.
-
-        It is not mirrored: this is the same part lying on its other side.
-        """
-        total = self.z0_mm + self.z1_mm
-        return self._mapped(lambda region: region.mirror((0.0, 1.0)), lambda z: total - z)
 
     def chamfered(self, depth_mm: float, layer_mm: float, first_layer_mm: float | None = None) -> "Stack":
         """Return the stack with the edges of its bottom face chamfered at 45° against a spreading first layer.
@@ -183,22 +159,6 @@ class Stack:
         """Return the regions that matter for how far the stack reaches: without those that others contain."""
         whole = {slab.number: slab.outline for slab in self.slabs if not slab.inset_mm}
         return [*whole.values(), *(slab.region for slab in self.slabs if slab.number not in whole)]
-
-    def _mapped(self, change: Callable[[Region], Region], change_z: Callable[[float], float] = lambda z: z) -> "Stack":
-        """Return the stack with every region and height changed."""
-        changed = {number: change(outline) for number, outline in self._outlines.items()}
-        pockets = {0: NOTHING} | {slab.pocket_number: slab.pocket for slab in self.slabs}
-        pockets = {number: change(pocket) for number, pocket in pockets.items()}
-        slabs = []
-        for slab in self.slabs:
-            low, high = sorted((rounded_z(change_z(slab.z0_mm)), rounded_z(change_z(slab.z1_mm))))
-            outline, pocket = changed[slab.number], pockets[slab.pocket_number]
-            slabs.append(replace(slab, z0_mm=low, z1_mm=high, outline=outline, pocket=pocket))
-        return Stack(tuple(sorted(slabs, key=lambda slab: slab.z0_mm)))
-
-
-def _listed(slabs: Iterable[SlabLike] | Stack) -> tuple[SlabLike, ...]:
-    return slabs.slabs if isinstance(slabs, Stack) else tuple(slabs)
 
 
 def _clean(slabs: Iterable[SlabLike]) -> list[Slab]:

@@ -64,13 +64,37 @@ class Move:
 
 
 @dataclass(frozen=True)
+class Inset:
+    """A detail of a step that has a picture of its own, seen from a direction (yaw and pitch).
+
+    `shown` and `framed` are patterns of the parts that it shows and frames, `room` is the size of the frame over that
+    of the framed parts. Of what the step puts on, `placed` is drawn in its place. `usb` are words for the controller's
+    USB socket.
+    """
+
+    name: str
+    title: str
+    shown: str
+    framed: str
+    view_deg: tuple[float, float]
+    room: float = 1.0
+    placed: str = ""
+    usb: str = ""
+
+
+@dataclass(frozen=True)
 class Plan:
-    """A step for any robot: its moves onto an assembly. Its words are in `templates/guides/steps/KEY.md.j2`."""
+    """A step for any robot: its moves onto an assembly. Its words are in `templates/guides/steps/KEY.md.j2`.
+
+    `behind` is the pattern of what a plate hides in the step's picture: an inset shows it.
+    """
 
     key: str
     title: str
     onto: str = ROBOT
     moves: tuple[Move, ...] = ()
+    insets: tuple[Inset, ...] = ()
+    behind: str = ""
 
 
 def _plan(step: dict[str, Any], tools: dict[str, Tool]) -> Plan:
@@ -79,7 +103,8 @@ def _plan(step: dict[str, Any], tools: dict[str, Tool]) -> Plan:
     for move in step.pop("moves", ()):
         tool = tools[move.pop("tool")] if "tool" in move else None
         moves.append(Move(**{"parts": "", "tool": tool} | move | {"retention": tuple(move.get("retention", ()))}))
-    return Plan(**step, moves=tuple(moves))
+    insets = tuple(Inset(**inset) for inset in step.pop("insets", ()))
+    return Plan(**step, moves=tuple(moves), insets=insets)
 
 
 _data, _ = read_toml(templates_folder() / "guides" / "assembly_order.toml")
@@ -110,13 +135,10 @@ class MovedParts:
 
 
 @dataclass(frozen=True)
-class Step:
-    """One step: what is put on, and onto which assembly."""
+class Step(Plan):
+    """A step of one robot, with what it puts on."""
 
-    key: str
-    title: str
-    onto: str
-    placed: tuple[MovedParts, ...]
+    placed: tuple[MovedParts, ...] = ()
 
     @property
     def added(self) -> tuple[Visual, ...]:
@@ -137,10 +159,9 @@ def assembly_steps(robot: Robot) -> tuple[Step, ...]:
         placed = tuple(_placed(plan, robot, names, left, built))
         if not placed and plan.moves:
             continue
-        steps.append(Step(plan.key, plan.title, plan.onto, placed))
+        steps.append(Step(**vars(plan), placed=placed))
     if left:
-        rest = MovedParts(Move(".*", way="laid"), tuple(left))
-        steps.append(Step("rest", REST, ROBOT, (rest,)))
+        steps.append(Step("rest", REST, placed=(MovedParts(Move(".*", way="laid"), tuple(left)),)))
     return tuple(steps)
 
 

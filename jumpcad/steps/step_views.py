@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.renderer import View
 from jumpcad.scene.visuals import Visual
 from jumpcad.solids.tube import DrawnWire
-from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Move, Step, assembly_steps, travel
-from jumpcad.steps.step_insets import BEHIND, INSETS, Inset
+from jumpcad.steps.assembly_steps import LEFT, LOWER, UPPER, Inset, Move, Step, assembly_steps, travel
 from jumpcad.transforms import Array, chained
 
 FROM_LEFT = View(yaw_deg=62.0, pitch_deg=28.0)
@@ -96,8 +95,8 @@ def step_views(robot: Robot) -> dict[str, list[StepView]]:
         views[step.key] = [_view(step.key, step.title, step, before, moved, poses, None, motor_sense(robot), beside)]
         if step.key == "boards":
             views[step.key][0] = _with_usb(views[step.key][0], robot, "USB socket")
-        for inset in INSETS:
-            if inset.step == step.key and any(re.fullmatch(inset.framed, thing.name) for thing in there):
+        for inset in step.insets:
+            if any(re.fullmatch(inset.framed, thing.name) for thing in there):
                 stay = {name: by for name, by in moved.items() if not re.fullmatch(inset.placed, name)}
                 view = _view(inset.name, inset.title, step, before, stay, poses, inset)
                 views[step.key].append(_with_usb(view, robot, inset.usb) if inset.usb else view)
@@ -136,8 +135,8 @@ def _view(
     `beside` the assemblies beside it on the bench.
     """
     added = [thing for placed in step.placed for thing in placed.things]
-    if inset is None and step.key in BEHIND:
-        added = [thing for thing in added if not re.fullmatch(BEHIND[step.key], thing.name)]
+    if inset is None:
+        added = [thing for thing in added if not re.fullmatch(step.behind, thing.name)]
     moved, beside = moved | _on_bench(before, beside or {}, poses), beside or {}
     things = [*before, *added, *(thing for others in beside.values() for thing in others)]
     if inset is not None:
@@ -157,7 +156,7 @@ def _view(
         corners = np.concatenate([corners, *places, [middle - NEAREST_M, middle + NEAREST_M]])
     pale = tuple(thing.name not in new and bool(new) for thing in things)
     right = sum(placed.move.along == "from the right" for placed in step.placed)  # as most moves of a step come
-    view = inset.view if inset else FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
+    view = View(*inset.view_deg) if inset else FROM_RIGHT if right > len(step.placed) / 2 else FROM_LEFT
     near = "spring_left" if view.yaw_deg > 0.0 else "spring_right"
     labels = _labels(things, at, poses, new if not inset else {things[i].name for i in framed}, step, near)
     if any(beside.values()):

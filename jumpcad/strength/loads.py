@@ -15,6 +15,7 @@ from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.flight import Blow
 from jumpcad.mechanism.linkage import Linkage, toe_tip_mm
+from jumpcad.mechanism.mass import MassProperties
 from jumpcad.mechanism.model import BODY, Mechanism, Spring, Stop
 from jumpcad.transforms import Array, turned_about_y
 
@@ -24,15 +25,6 @@ TILTING = 1.1
 """Friction losses with a tilting foot and links with mass over those from `push_off`; judgement: with the pins' forces
 in the planar engine, up to rest, 1.04 to 1.16 on the templates, 0.74 to 1.16 on 45 printed robots, 1 % of the springs'
 energy at most."""
-
-
-@dataclass(frozen=True)
-class MovingMass:
-    """What the legs accelerate: mass, centre of mass (2,) in the body's x-z frame, radius of gyration about y."""
-
-    mass_kg: float
-    com_mm: Array
-    gyration_mm: float
 
 
 @dataclass(frozen=True)
@@ -53,8 +45,8 @@ class PushOffForces:
     residual_n: Array
 
 
-def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) -> PushOffForces:
-    """Return the forces of a push-off from a flat foot that does not slip.
+def push_off(linkage: Linkage, body: MassProperties, springs: Spring | None = None) -> PushOffForces:
+    """Return the forces of a push-off from a flat foot that does not slip; the legs accelerate the body alone.
 
     With compression δ, mass m, centre of mass c(q), turn t(q), radius of gyration k and J = |c'|² + k² t'², energy
     gives m·J·q̇²/2 = K·((δ + p)² - (q - p)²)/2 - m·g·(rise), and its derivative by q gives q̈; K and the preload p are
@@ -64,7 +56,7 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     leg = np.linspace(*linkage.travel_rad, POSITIONS)
     pose = linkage.pose(leg)
     springs = springs or springs_on_leg(design)
-    stiffness, weight = 1000.0 * springs.stiffness_nm_per_rad, mass.mass_kg * GRAVITY_M_S2
+    stiffness, weight = 1000.0 * springs.stiffness_nm_per_rad, body.mass_kg * GRAVITY_M_S2
 
     def on_foot(point_mm: Array) -> Array:
         return turned_about_y(point_mm - pose.ankle_mm, -pose.foot_rad)
@@ -72,11 +64,12 @@ def push_off(linkage: Linkage, mass: MovingMass, springs: Spring | None = None) 
     def by_leg(values: Array) -> Array:
         return np.gradient(values, leg, axis=0, edge_order=2)
 
-    hub, front, com = on_foot(linkage.back_pivot_mm), on_foot(linkage.front_pivot_mm), on_foot(mass.com_mm)
+    places = linkage.back_pivot_mm, linkage.front_pivot_mm, 1000.0 * body.com_m[[0, 2]]
+    hub, front, com = map(on_foot, places)
     first = by_leg(np.column_stack([com, -pose.foot_rad]))
     second = by_leg(first)
     com_1, turn_1, com_2, turn_2 = first[:, :2], first[:, 2], second[:, :2], second[:, 2]
-    arm_square = mass.gyration_mm**2
+    arm_square = (1000.0 * math.sqrt(body.inertia_kg_m2[1, 1] / body.mass_kg)) ** 2
     reflected = (com_1**2).sum(axis=1) + arm_square * turn_1**2
     loaded = springs.preload_rad - leg
     energy = 0.5 * stiffness * (loaded[0] ** 2 - loaded**2) - weight * (com[:, 1] - com[0, 1])
@@ -128,16 +121,6 @@ def _moment(arm: Array, force: Array) -> Array:
     return arm[:, 1] * force[:, 0] - arm[:, 0] * force[:, 1]
 
 
-def landing_force_n(design: Design, mass_kg: float, stop_mm: float, rise_m: float | None = None) -> float:
-    """Return the mean force that stops a falling robot over a distance, m·g·(drop + stop)/stop.
-
-    Without the rise of a simulated jump, all of the springs' energy is assumed to become height.
-    """
-    weight = mass_kg * GRAVITY_M_S2
-    drop = 1000.0 * design.spring_energy_j if rise_m is None else 1000.0 * weight * rise_m
-    return drop / stop_mm + weight
-
-
 def reflected_share(arm_mm: tuple[float, float], gyration_mm: tuple[float, float]) -> float:
     """Return the effective share of a body's mass in a vertical impact at arms x, y from its centre of mass.
 
@@ -183,10 +166,8 @@ def pin_torque_nm(mechanism: Mechanism, coefficient: float) -> float:
     friction = mechanism.friction
     if friction is None or coefficient == 0.0:
         return 0.0
-    linkage, body = mechanism.linkage, mechanism.bodies[BODY]
-    gyration_mm = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
-    mass = MovingMass(body.mass_kg, 1000.0 * body.com_m[[0, 2]], float(gyration_mm))
-    loads = push_off(linkage, mass, mechanism.spring)
+    linkage = mechanism.linkage
+    loads = push_off(linkage, mechanism.bodies[BODY], mechanism.spring)
     leg, front, ankle, eye = friction.pin_radius_m
     foot_rate, front_rate = linkage.turning(loads.leg_rad)
     on_leg, on_front = np.hypot(*loads.ankle_n.T), np.abs(loads.front_n)

@@ -111,16 +111,15 @@ def tapered_stress_mpa(bar: Beam, moment_nmm: float, axial_n: float = 0.0) -> fl
     return float(np.max(bar.stress_mpa(moment_nmm * share, axial_n)))
 
 
-def tapered_energy_nmm(bar: Beam, moment_nmm: float, length_mm: float, modulus_mpa: float) -> float:
-    """Return the bending energy of such a cantilever, the integral of M²/(2·E·I) (N·mm)."""
-    share = np.linspace(1.0, 0.0, len(np.atleast_1d(bar.height_mm)))
-    density = (moment_nmm * share) ** 2 / (2.0 * modulus_mpa * bar.second_moment_mm4)
-    return float(np.trapezoid(density, dx=length_mm / (len(share) - 1)))
+def tapered_energy_nmm(stiffness_nmm2: Array, moment_nmm: float, length_mm: float) -> float:
+    """Return the bending energy of such a cantilever of stiffness E·I (n,), the integral of M²/(2·E·I) (N·mm)."""
+    share = np.linspace(1.0, 0.0, len(stiffness_nmm2))
+    return float(np.trapezoid((moment_nmm * share) ** 2 / (2.0 * stiffness_nmm2), dx=length_mm / (len(share) - 1)))
 
 
 def tip_stiffness_n_per_mm(bar: Beam, length_mm: float, modulus_mpa: float) -> float:
     """Return the force over the deflection at the tip of such a cantilever, F²/(2·U) with its bending energy U."""
-    return 1.0 / (2.0 * tapered_energy_nmm(bar, length_mm, length_mm, modulus_mpa))
+    return 1.0 / (2.0 * tapered_energy_nmm(np.asarray(modulus_mpa * bar.second_moment_mm4), length_mm, length_mm))
 
 
 def bored_stress_mpa(moment_nmm: float, width_mm: float, height_mm: float, bore_mm: float) -> float:
@@ -182,9 +181,9 @@ def twisted_height_mm(torque_nmm: float, width_mm: float, stress_mpa: float) -> 
     return height
 
 
-def buckling_load_n(bar: Beam, length_mm: float, modulus_mpa: float) -> float:
+def buckling_load_n(second_moment_mm4: float | Array, length_mm: float, modulus_mpa: float) -> float:
     """Return Euler's load of a bar with a hinge at either end, pi²·E·I/l²."""
-    return float(math.pi**2 * modulus_mpa * bar.second_moment_mm4 / length_mm**2)
+    return float(math.pi**2 * modulus_mpa * second_moment_mm4 / length_mm**2)
 
 
 LOW_CYCLES, LASTING = 1e3, 1e6

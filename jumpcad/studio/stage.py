@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from jumpcad.bundle.viewer import turning_parts
 from jumpcad.design import Design
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, seen, visuals
 from jumpcad.solids.tube import DrawnWire, tube

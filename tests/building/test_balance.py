@@ -31,7 +31,7 @@ def test_the_usb_plug_passes_the_plate_at_which_its_socket_is() -> None:
         plug = Manifold.cube([12.35, 100.0, 6.5], True).translate([x, 0.0, z])
         for side, free in ((boards, True), (other, False)):
             plate = next(part for part in robot.parts if part.name == f"body_plate_{side}")
-            solid = plate.drawing.solid.transform(plate.placements[0].T_body_part[:3])
+            solid = plate.solid.transform(plate.placements[0].T_body_part[:3])
             assert ((solid ^ plug).volume() < 1e-6) == free, (boards, side)
         assert f"USB socket to the {boards}" in "".join(write_guide(robot).values())
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from support.built import built
 from support.each import each
+from support.masses import in_plane
 from support.strengths import with_motor_of, with_own
 from support.workshops import workshop_with
 from threadpoolctl import threadpool_limits
@@ -29,7 +30,6 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.sizing import RESERVE, sections
 from jumpcad.strength.bearings import allowed_n, bearing_load_n, hub_bearings, hub_width_mm, loaded_forces_n
 from jumpcad.strength.growth import Growth
-from jumpcad.strength.loads import MovingMass
 from jumpcad.transforms import turned_about_y
 from jumpcad.workshop import Workshop, load_workshop
 from jumpcad.workshop.workshop import Role
@@ -139,7 +139,7 @@ def test_the_leg_falls_by_springs_with_the_preload_of_the_workshop(monkeypatch: 
 def test_the_typical_body_turns_like_two_halves_on_a_rod(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Half its mass at each end of a rod whose half length is the radius of gyration, here so long that turns count."""
     design, past_rad, halves = load_design(name), math.radians(6.0), []
-    monkeypatch.setattr(settling, "TYPICAL_BODY", MovingMass(0.08, np.array([4.0, 11.0]), 2000.0))
+    monkeypatch.setattr(settling, "TYPICAL_BODY", in_plane(0.08, (4.0, 11.0), 2000.0))
     linkage, springs = Linkage(design), springs_on_leg(design, None, math.radians(4.0))
     wind = design.compression_rad * np.cos((np.arange(400) + 0.5) * math.pi / 800.0)
     for end in (-2000.0, 2000.0):

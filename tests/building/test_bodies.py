@@ -176,7 +176,7 @@ def test_a_part_weighs_what_the_printers_own_nozzle_lays() -> None:
     """A wider one bridges the infill of a plate with thicker threads."""
     workshop = load_workshop()
     wide = workshop_with(workshop, printer={"nozzle_mm": 0.6})
-    drawing = next(part.drawing for part in built("kenan-2.0").parts if part.name == "body_plate_right")
+    drawing = next(part for part in built("kenan-2.0").parts if part.name == "body_plate_right")
     assert weighed_part(drawing, wide).mass_kg > 1.001 * weighed_part(drawing, workshop).mass_kg
 
 
@@ -189,7 +189,7 @@ def test_corners_that_are_left_out_of_plates_weigh_next_to_nothing(monkeypatch: 
     monkeypatch.setattr(layer_mass, "FEW", 0)
     for one, shop in zip(parts, [robot.workshop for robot in robots for _ in range(4)], strict=True):
         density = shop.material("body").density_g_cm3
-        moments = printed_moments(one.drawing.shape, shop.process, shop.printer.nozzle_mm)
+        moments = printed_moments(one.shape, shop.process, shop.printer.nozzle_mm)
         fine = mass_of(moments, density)
         assert one.mass_kg != fine.mass_kg or one.name.startswith("electronics"), "no corner was left out"
         assert one.mass_kg == pytest.approx(fine.mass_kg, rel=5e-4), one.name

@@ -10,7 +10,7 @@ import pytest
 from support.built import built
 
 from jumpcad.building import build
-from jumpcad.building.bom import BilledPlate, bill_of_facts, bill_of_materials, write_bom
+from jumpcad.building.bom import SlicedPlate, bill_of_facts, bill_of_materials, write_bom
 from jumpcad.bundle.guide.markdown import bill_text
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
@@ -148,7 +148,7 @@ def test_filament_is_paid_by_the_mass_of_all_pieces() -> None:
 def test_printing_times_are_of_one_copy_and_add_up_by_plates(robot: Robot) -> None:
     """In whole seconds: of what is printed and was sliced; those of the plates make the total."""
     bill = bill_of_materials(robot)
-    plates = [BilledPlate("plate-1-PETG", "PETG", 7260.4), BilledPlate("plate-1-PLA", "PLA", 900.2)]
+    plates = [SlicedPlate("plate-1-PETG", "PETG", 9.0, 7260.4), SlicedPlate("plate-1-PLA", "PLA", 1.0, 900.2)]
     *lines, total = table(write_bom(bill.sliced({"foot": 5400.4, "lock nut M3 DIN 985": 9.0}, plates)))
     assert [(line["item"], line["print_time_s"]) for line in lines if line["print_time_s"]] == [
         ("foot", "5400"), ("plate-1-PETG", "7260"), ("plate-1-PLA", "900"),

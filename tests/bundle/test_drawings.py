@@ -199,7 +199,7 @@ def test_a_lead_is_one_line_from_end_to_end_dashed_where_a_plate_or_the_tray_hid
 
 def test_leads_end_at_the_pads_of_the_controller_in_their_order_from_the_usb_socket(robot: Robot) -> None:
     """From above with USB to the right, the row that is left with USB ahead lies in front, at the board's edge."""
-    board = robot.electrical_parts.controller
+    board = robot.layout.electronics.controller
     (item,) = (one for one in robot.hardware if one.name == "controller")
     corners = item.shown_mesh.vertices @ item.T_body_part[:3, :3].T + item.T_body_part[:3, 3]
     (back, right, _), (front, left, _) = corners.min(axis=0), corners.max(axis=0)

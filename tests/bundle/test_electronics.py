@@ -12,8 +12,7 @@ from jumpcad.bundle.facts import electronics_facts
 from jumpcad.bundle.firmware_numbers import numbers
 from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.electronics.supply import chosen_parts, supply_of
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 from jumpcad.robot.electronics.limits import jumps_per_charge
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals

@@ -17,7 +17,7 @@ from support.built import LONG_TOES, built, design, geared, of_kit
 from support.workshops import workshop_with
 
 from jumpcad.building import build
-from jumpcad.building.bom import Bill, BilledPlate, bill_of_materials, write_bom
+from jumpcad.building.bom import Bill, SlicedPlate, bill_of_materials, write_bom
 from jumpcad.bundle.drawings.spring_sheet import spring_sheets
 from jumpcad.bundle.firmware import firmware_files
 from jumpcad.bundle.firmware_numbers import numbers
@@ -166,7 +166,7 @@ def test_both_plates_hold_the_springs_pin_before_an_arm_is_pushed() -> None:
 def test_a_guide_takes_times_in_and_changes_nothing_else() -> None:
     bill = bill_of_materials(built("kenan-2.0"))
     order = write_guide(built("kenan-2.0"))["order.md"]
-    timed = with_bill(order, bill.sliced({"foot": 5400.0}, [BilledPlate("plate-1-PETG", "PETG", 7260.0)]))
+    timed = with_bill(order, bill.sliced({"foot": 5400.0}, [SlicedPlate("plate-1-PETG", "PETG", 9.0, 7260.0)]))
     assert "| plate-1-PETG | 2:01 h |" in timed
     assert timed.split("## Print settings")[1] == order.split("## Print settings")[1]
     assert with_bill(timed, bill) == order

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from support.built import built, geared, of_kit, part, placed
-from support.workshops import workshop_with
+from support.workshops import rewired, workshop_with
 
 from jumpcad.building import build
 from jumpcad.building.bom import bill_of_materials
@@ -25,8 +25,7 @@ from jumpcad.dimensions import AXLE_FLOOR_MM
 from jumpcad.electronics.nets import Wiring
 from jumpcad.electronics.supply import chosen_parts
 from jumpcad.errors import CannotBuildError
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.transforms import chained
@@ -241,7 +240,7 @@ def test_the_capacitors_wires_start_at_named_pins_of_the_driver() -> None:
     assert supply in driver.supply_v
     assert ground in driver.with_function("ground")
     bare = workshop_with(robot.workshop, bought={"capacitor": ""})
-    assert operation_values(replace(robot, workshop=bare))["driver_supply"] == []
+    assert operation_values(rewired(robot, bare))["driver_supply"] == []
 
 
 TIP_MM, SHANK_MM, TIP_LENGTH_MM = 2.0, 5.0, 8.0

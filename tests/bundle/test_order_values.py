@@ -14,7 +14,7 @@ from jumpcad.building.bom import bill_of_materials
 from jumpcad.bundle.drawings.wiring import wires
 from jumpcad.bundle.guide.order_values import _screw_axles, order_values, strap_mm
 from jumpcad.exporters.threemf import plate_files
-from jumpcad.robot.electronics import wired
+from jumpcad.robot.electronics.thing import _switch
 from jumpcad.robot.leg.place import END_PLAY_MM
 from jumpcad.robot.robot import Robot
 
@@ -154,7 +154,7 @@ def test_thick_plates_need_longer_screws_and_sliders() -> None:
     for plate_mm, screw, reaches in ((2.4, "M2 x 5", True), (3.6, "M2 x 6", False), (4.0, "M2 x 8", False)):
         plate = (lateral.inside[0] - plate_mm, lateral.inside[0])
         layout = replace(robot.layout, lateral=replace(lateral, right_plate=plate))
-        articles = Counter(item.article for item in wired._switch(layout, catalogue))
+        articles = Counter(item.article for item in _switch(layout, catalogue))
         assert articles[f"screw {screw} ISO 14580"] == articles["nut M2 ISO 4032"] == 2
         assert order(replace(robot, layout=layout))["slide_switch"]["reaches"] is reaches, plate_mm
     for gone in ({"switch": None}, {"switch_mm": None}):

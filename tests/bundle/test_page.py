@@ -23,7 +23,7 @@ from jumpcad.design import load_design
 from jumpcad.dimensions import unit_of_key
 from jumpcad.files import template_names
 from jumpcad.files.templates import fill
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Jump, Settings, simulate, uncertain_jump
 from jumpcad.simulation.uncertain import FIGURES, Uncertainty, uncertainty_of

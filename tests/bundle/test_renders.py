@@ -10,7 +10,7 @@ from support.built import built
 from jumpcad.bundle import renders
 from jumpcad.bundle import renders as module
 from jumpcad.bundle.renders import exploded, jump_gif
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.labels import STRIPES
 from jumpcad.scene.renderer import aimed, paletted

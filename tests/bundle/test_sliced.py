@@ -37,7 +37,7 @@ def test_the_model_weighs_the_same_from_a_file_as_from_a_drawing(
     parts = {part.name: part for part in small_robot.parts}
     for part in found.parts:
         density = found.workshop.materials[part.material].density_g_cm3
-        shape, printer = parts[part.name].drawing.shape, found.workshop.printer
+        shape, printer = parts[part.name].shape, found.workshop.printer
         drawn = mass_properties(shape, density, found.workshop.process, printer.nozzle_mm).mass_kg
         assert part.modelled_grams == pytest.approx(1000.0 * drawn, rel=2e-3)
 

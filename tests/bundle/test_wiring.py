@@ -2,12 +2,13 @@
 
 import itertools
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 import shapely
 from support.built import built, of_kit, with_kit
+from support.workshops import rewired
 
 from jumpcad.bundle.drawings.wiring import soldering_svg, wires, wiring_svg
 from jumpcad.electronics.nets import Wiring, wiring_of
@@ -169,7 +170,7 @@ class Drawn:
 @pytest.fixture(scope="module", params=["light-1s", "strong-2s", "left"])
 def drawn(request: pytest.FixtureRequest) -> Drawn:
     shop = left_board() if request.param == "left" else with_kit(request.param)
-    svg = soldering_svg(replace(built("kenan-2.0"), workshop=shop))
+    svg = soldering_svg(rewired(built("kenan-2.0"), shop))
     return Drawn(shop, wiring_of(chosen_parts(shop), shop.bought.pins), ET.fromstring(svg))
 
 
@@ -239,9 +240,8 @@ def with_sides(left: tuple[str, ...], right: tuple[str, ...]) -> Workshop:
 
 def test_nothing_is_drawn_of_a_board_whose_sides_are_not_known() -> None:
     """One side is enough; pins that are on none are then drawn underneath."""
-    drawn = [
-        soldering_svg(replace(built("kenan-2.0"), workshop=with_sides(left, ()))) for left in ((), ("D5", "D1", "D4"))
-    ]
+    sides = ((), ("D5", "D1", "D4"))
+    drawn = [soldering_svg(rewired(built("kenan-2.0"), with_sides(left, ()))) for left in sides]
     assert drawn[0] == ""
     assert "BAT+ (underneath)" in drawn[1]
     assert "D1 (underneath)" not in drawn[1]

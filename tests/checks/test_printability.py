@@ -27,8 +27,8 @@ HOLE = rectangle((14.0, 14.0))
 
 
 def robot_of(kenan: Robot, shape: Stack | Blocks) -> Robot:
-    drawing = Drawing("piece", "body", shape, (Placement(BODY, np.eye(4)),))
-    return replace(kenan, parts=(Part(drawing, "PLA", MassProperties.box(0.01, (0.03, 0.02, 0.01)), "solid"),))
+    mass = MassProperties(0.01, np.zeros(3), 1e-6 * np.eye(3))
+    return replace(kenan, parts=(Part("piece", "body", shape, (Placement(BODY, np.eye(4)),), "PLA", mass, "solid"),))
 
 
 def found(kenan: Robot, shape: Stack | Blocks) -> dict[str, Finding]:

@@ -5,8 +5,7 @@ import pytest
 from support import needs
 from support.clients import Case, same_tensor
 
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 
 needs.package("pydrake")
 

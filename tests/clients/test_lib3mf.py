@@ -6,7 +6,7 @@ import trimesh
 from support import needs
 
 from jumpcad.exporters.threemf import write_threemf
-from jumpcad.printing.plates import packed
+from jumpcad.parts.plates import packed
 from jumpcad.solids.outline import hole, ring, stadium
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.stl import to_trimesh

@@ -15,7 +15,7 @@ from support.slicers import with_seams_behind
 
 from jumpcad.errors import CannotBuildError
 from jumpcad.printing.layer_mass import mass_properties
-from jumpcad.printing.prusaslicer import slice_part
+from jumpcad.printing.prusaslicer import slice_model
 from jumpcad.solids.blocks import Bar, Blocks, Finger
 from jumpcad.solids.moments import mass_of
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, tapered_bar
@@ -76,7 +76,7 @@ def written(shape, folder):
 
 def require_agreement(shape, stl, infill, material):
     process = WORKSHOP.process.model_copy(update={"infill": infill})
-    sliced = slice_part(stl, WORKSHOP.printer, process, material)
+    sliced = slice_model(stl, WORKSHOP.printer, process, material)
     assert sliced.ignored == {}
     assert sliced.grams == pytest.approx(float(read_gcode(sliced.gcode).remarks["filament used [g]"]), abs=0.006)
     assert sliced.time_s > 30.0
@@ -105,7 +105,7 @@ def test_every_part_of_a_robot_agrees(tmp_path):
             continue
         stl = tmp_path / f"{part.name}.stl"
         stl.write_bytes(write_stl(part.mesh))
-        require_agreement(part.drawing.shape, stl, WORKSHOP.process.infill, WORKSHOP.materials[part.material])
+        require_agreement(part.shape, stl, WORKSHOP.process.infill, WORKSHOP.materials[part.material])
 
 
 @needs_slicer
@@ -126,7 +126,7 @@ def test_small_parts_agree_in_other_workshops(name, within, tmp_path):
     for part in parts:
         stl = tmp_path / f"{part.name}.stl"
         stl.write_bytes(write_stl(part.mesh))
-        grams = slice_part(stl, workshop.printer, workshop.process, workshop.materials[part.material]).grams
+        grams = slice_model(stl, workshop.printer, workshop.process, workshop.materials[part.material]).grams
         assert 1000.0 * part.mass_kg == pytest.approx(grams, rel=within[part.name]), part.name
 
 
@@ -135,7 +135,7 @@ def test_over_infill_coarse_layers_are_bridged_with_less_plastic_than_they_hold(
     """Of 0.32 mm by a nozzle of 0.4 mm: its round threads, 0.45 mm apart, are 0.28 mm of plastic."""
     process = WORKSHOP.process.model_copy(update={"layer_height_mm": 0.32, "first_layer_mm": 0.32, "infill": 0.15})
     box = Stack.of([(0, 14 * 0.32, rectangle((60, 50)))])
-    grams = slice_part(written(box, tmp_path), WORKSHOP.printer, process, MATERIAL).grams
+    grams = slice_model(written(box, tmp_path), WORKSHOP.printer, process, MATERIAL).grams
     found = mass_properties(box, MATERIAL.density_g_cm3, process, WORKSHOP.printer.nozzle_mm)
     assert 1000.0 * found.mass_kg == pytest.approx(grams, rel=0.01)
 
@@ -143,7 +143,7 @@ def test_over_infill_coarse_layers_are_bridged_with_less_plastic_than_they_hold(
 @needs_slicer
 def test_a_hole_keeps_its_diameter_in_the_toolpath(tmp_path):
     block = Stack.of([(0, 2, rectangle((30, 30)))]).through(hole(8.2))
-    sliced = slice_part(written(block, tmp_path), WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+    sliced = slice_model(written(block, tmp_path), WORKSHOP.printer, WORKSHOP.process, MATERIAL)
     toolpath = read_gcode(sliced.gcode)
     outer = np.array([kind == "External perimeter" for kind in toolpath.kinds])
     centre = np.array(WORKSHOP.printer.bed_mm[:2]) / 2.0
@@ -158,4 +158,4 @@ def test_a_file_that_is_no_part_is_refused_in_the_slicers_words(tmp_path):
     path = tmp_path / "empty.stl"
     path.write_bytes(b"")
     with pytest.raises(CannotBuildError, match=r"prusa-slicer refused empty\.stl: "):
-        slice_part(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+        slice_model(path, WORKSHOP.printer, WORKSHOP.process, MATERIAL)

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from support.clients import Case, same_tensor
 
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 
 
 def test_masses_axes_and_extents(case: Case) -> None:

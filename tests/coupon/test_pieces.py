@@ -13,7 +13,7 @@ from support.gearing import turning_play_deg
 from jumpcad.coupon.joints import joint_pieces
 from jumpcad.coupon.pieces import coupon_holes, pieces
 from jumpcad.parts.part import Piece
-from jumpcad.printing.plates import packed
+from jumpcad.parts.plates import packed
 from jumpcad.solids.outline import text
 from jumpcad.solids.stl import faults, write_stl
 from jumpcad.workshop import Workshop, load_workshop

@@ -8,8 +8,10 @@ import pytest
 from support.limits import default_limits
 
 from jumpcad.design import SEARCH_BOUNDS, Design, load_design
+from jumpcad.dimensions import CLEAR_MM, SPACER_RADIUS_MM
 from jumpcad.drive import synthesis, synthesise
 from jumpcad.drive.corner import clear_window_rad
+from jumpcad.drive.motor import FACE_WIDTHS_MM
 from jumpcad.errors import CannotBuildError
 
 LIMITS = default_limits()
@@ -38,10 +40,10 @@ def check(design, drive):
     assert math.degrees(drive.dog.play_rad) == pytest.approx(round(play_deg, 3), abs=1e-9)
     axis = math.hypot(*cam.geometry.axis_mm)
     assert axis - cam.outer_radius_mm - spring.outer_diameter_mm / 2 >= LIMITS.cam.clearance_mm - 1e-6
-    assert axis - train.stages[-1].wheel.tip_radius_mm >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6
+    assert axis - train.stages[-1].wheel.tip_radius_mm >= SPACER_RADIUS_MM + CLEAR_MM - 1e-6
     for pair in train.stages[1:]:
         idler = pair.centre_distance_mm - cam.outer_radius_mm
-        assert idler >= LIMITS.axle_radius_mm + LIMITS.gap_mm - 1e-6, "the idler's axle crosses the cam"
+        assert idler >= SPACER_RADIUS_MM + CLEAR_MM - 1e-6, "the idler's axle crosses the cam"
     assert train.electrical_j * train.efficiency > design.spring_energy_j
     ahead = train.motor.no_load_rpm * math.pi / 30 / train.ratio * LIMITS.fall_s + drive.dog.play_rad
     assert ahead + math.radians(3.0) <= clear_window_rad(cam.geometry)[1] + 1e-4
@@ -150,7 +152,7 @@ def test_gears_widen_where_their_teeth_are_too_weak():
     for stress in (10.0, 2.0, 1.5):
         limits = dataclasses.replace(LIMITS, train=dataclasses.replace(LIMITS.train, stress_mpa=stress))
         trains[stress] = synthesise(design, limits).train
-    assert [train.stages[0].wheel.face_width_mm for train in trains.values()] == sorted(LIMITS.face_widths_mm)
+    assert [train.stages[0].wheel.face_width_mm for train in trains.values()] == sorted(FACE_WIDTHS_MM)
     for stress, train in trains.items():
         pinion = train.stages[0].pinion
         # what the pair loses to friction does not bend its teeth

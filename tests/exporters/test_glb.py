@@ -11,8 +11,7 @@ from support.built import built
 
 from jumpcad.bundle.motion import jump_motion
 from jumpcad.exporters.glb import animated, linear_light, write_glb
-from jumpcad.mechanism.model import BODY_NAMES
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY_NAMES, body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 

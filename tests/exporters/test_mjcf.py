@@ -12,9 +12,8 @@ from support.built import built
 from jumpcad.design import load_design
 from jumpcad.exporters.mjcf import write_mjcf
 from jumpcad.exporters.mjcf_robot import write_robot
-from jumpcad.mechanism.model import FOOT
+from jumpcad.mechanism.model import FOOT, body_poses
 from jumpcad.mechanism.planar import leg_inertia_kg_m2
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals

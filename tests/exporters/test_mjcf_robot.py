@@ -12,8 +12,7 @@ from support import needs
 from support.machines import one_sided
 
 from jumpcad.exporters.mjcf_robot import HOLD, mjcf_files, readme, write_robot
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
-from jumpcad.mechanism.poses import body_poses, release_pose
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, body_poses, release_pose
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients

@@ -18,8 +18,7 @@ from jumpcad.design import load_design
 from jumpcad.exporters import ros2
 from jumpcad.exporters.ros2 import body_box, capsules, mimicked, model_name, ros2_files
 from jumpcad.files import templates_folder
-from jumpcad.mechanism.model import BODY, BODY_NAMES
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, BODY_NAMES, body_poses
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.scene.visuals import visuals
 from jumpcad.settings import Settings, coefficients

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 
 from jumpcad.exporters.threemf import _in_words, write_threemf
-from jumpcad.printing.plates import packed
+from jumpcad.parts.plates import packed
 from jumpcad.workshop import load_workshop
 
 SETTINGS, PICTURE = {"perimeters": "3", "fill_density": "40%"}, b"\x89PNG"
@@ -93,7 +93,7 @@ def test_the_picture_and_the_settings_are_where_slicers_look_for_them(plate):
         assert suffixes <= {one.get("Extension") for one in types}
 
 
-def test_each_plate_has_the_heat_of_its_own_material():
+def test_each_plate_has_the_heat_of_its_own_material(plate):
     """Temperatures that the workshop does not know are the user's to enter."""
     shop = load_workshop("default")
     petg = shop.materials["PETG"]
@@ -101,8 +101,8 @@ def test_each_plate_has_the_heat_of_its_own_material():
     materials = {
         name: petg.model_copy(update={"nozzle_c": nozzle, "bed_c": bed}) for name, (nozzle, bed) in heats.items()
     }
-    plates = [SimpleNamespace(name=f"plate-{name}", material=name, kind="plate", items=[]) for name in heats]
-    said = _in_words(plates, shop.model_copy(update={"materials": materials}), {})
+    plates = [SimpleNamespace(name=f"plate-{name}", material=name, items=plate.items) for name in heats]
+    said = _in_words(plates, shop.model_copy(update={"materials": materials}))
     assert "## plate-cold.3mf\n\ncold: nozzle 190 °C, bed 50 °C\n" in said
     assert "## plate-hot.3mf\n\nhot: nozzle 260 °C, bed 100 °C\n" in said
     assert "## plate-mine.3mf\n\nmine: no temperatures in the workshop" in said

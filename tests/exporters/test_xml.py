@@ -21,7 +21,7 @@ from jumpcad.exporters.urdf import write_urdf
 from jumpcad.exporters.xml import allowed, rpy, written, wxyz
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.mechanism.variants import capsule_robot
-from jumpcad.printing.plates import packed
+from jumpcad.parts.plates import packed
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.from_urdf import robot_from_urdf

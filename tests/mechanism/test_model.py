@@ -104,7 +104,7 @@ def test_a_body_with_a_sphere_of_the_foot_rubs_as_the_foot() -> None:
     sole, side = (ContactSphere(name, np.zeros(3), 0.001, name) for name in ("foot", "body"))
 
     def surface(*contacts: ContactSphere) -> str:
-        return Body("x", 0.1, np.zeros(3), np.eye(3), contacts).surface
+        return Body(0.1, np.zeros(3), np.eye(3), "x", contacts).surface
 
     assert surface(sole) == surface(sole, side) == surface(side, sole) == "foot"
     assert surface(side) == surface(side, side) == surface() == "body"

@@ -11,7 +11,7 @@ from support.each import each
 from jumpcad.design import load_design
 from jumpcad.dimensions import GRAVITY_M_S2
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, Spring
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, FRONT_LINK, MAIN_LEG, Body, Spring, body_poses
 from jumpcad.mechanism.planar import (
     ReflectedMass,
     about_common_centre,
@@ -21,7 +21,6 @@ from jumpcad.mechanism.planar import (
     reflected_mass,
     seen_from_foot,
 )
-from jumpcad.mechanism.poses import body_poses
 from jumpcad.mechanism.variants import capsule_robot
 
 
@@ -69,8 +68,8 @@ STILL = np.zeros((3, 3))
 def bodies(mass_kg: float, com_m: tuple[float, float], inertia: float = 0.0) -> dict[str, Body]:
     """A body alone; its legs have no mass."""
     about_y = np.diag([0.0, inertia, 0.0])
-    body = Body(BODY, mass_kg, np.array([com_m[0], 0.0, com_m[1]]), about_y)
-    return {BODY: body} | {name: Body(name, 0.0, np.zeros(3), STILL) for name in (MAIN_LEG, FRONT_LINK)}
+    body = Body(mass_kg, np.array([com_m[0], 0.0, com_m[1]]), about_y, BODY)
+    return {BODY: body} | {name: Body(0.0, np.zeros(3), STILL, name) for name in (MAIN_LEG, FRONT_LINK)}
 
 
 def test_a_parallelogram_carries_its_body_on_a_circle() -> None:
@@ -89,7 +88,7 @@ def test_legs_add_what_turns_about_the_foot(name: str) -> None:
     """Norton, 10.12: a link that turns about a fixed end adds its inertia about that end; its middle rises half."""
     design = load_design("kenan-2.0")
     alone, length = bodies(0.1, (0.0, 0.0)), design.l2_mm / 1000.0
-    link = Body(name, 0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]))
+    link = Body(0.02, np.array([length / 2.0, 0.0, 0.0]), np.diag([0.0, 0.02 * length**2 / 12.0, 0.0]), name)
     more, less = (reflected_mass(alone | own, Linkage(design)) for own in ({name: link}, {}))
     assert more.inertia_kg_m2 - less.inertia_kg_m2 == pytest.approx(0.02 * length**2 / 3.0, rel=5e-3)
     rise = -0.02 * GRAVITY_M_S2 * length / 2.0 * np.cos(math.radians(design.rest_angle_deg) - more.wind_rad)

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from jumpcad.design import load_design
-from jumpcad.mechanism.model import BODY, FOOT, Mechanism, RollerOff
-from jumpcad.mechanism.poses import ReleasePose, body_poses, release_pose, standing
+from jumpcad.mechanism.model import BODY, FOOT, Mechanism, ReleasePose, RollerOff, body_poses, release_pose, standing
 from jumpcad.mechanism.variants import capsule_robot
 
 NAMES = ["kenan-2.0", "best-ga", "best-bo", "best-printable"]

@@ -28,7 +28,7 @@ def test_files_are_closed_parts_on_the_bed(name: str) -> None:
         corners = np.frombuffer(stl[84:], FACET)["corners"].astype(float)
         assert corners[..., 2].min() == pytest.approx(0.0, abs=1e-6), part.name
         volume = np.linalg.det(corners).sum() / 6.0
-        assert volume == pytest.approx(part.drawing.solid.volume(), rel=1e-5), part.name
+        assert volume == pytest.approx(part.solid.volume(), rel=1e-5), part.name
 
 
 @pytest.mark.thorough

@@ -126,7 +126,7 @@ def test_small_sparse_areas_are_filled_when_the_process_says_so():
 
 def test_layers_cover_the_part_from_the_bed_up():
     process = PROCESS.model_copy(update={"first_layer_mm": 0.3})
-    levels, sections = sliced(BOX.moved(z_mm=1.0), process)
+    levels, sections = sliced(Stack.of([(1, 5, rectangle((40.0, 30.0)))]), process)
     assert levels[:2] == pytest.approx([1.0, 1.3])
     assert np.diff(levels)[1:] == pytest.approx(process.layer_height_mm)
     assert levels[-1] == pytest.approx(5.0, abs=0.1)

@@ -9,8 +9,7 @@ from jumpcad.exporters.threemf import plate_files
 from jumpcad.printing import prusaslicer
 from jumpcad.printing.prusaslicer import (
     project_settings,
-    slice_part,
-    slice_plate,
+    slice_model,
     slicer_program,
     slicer_settings,
     slicer_version,
@@ -50,7 +49,7 @@ def stand_in(tmp_path, monkeypatch):
 def sliced(tmp_path):
     model = tmp_path / "leg.stl"
     model.touch()
-    return slice_part(model, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
+    return slice_model(model, WORKSHOP.printer, WORKSHOP.process, MATERIAL)
 
 
 def writing(gcode):
@@ -80,11 +79,11 @@ def test_a_part_lies_in_the_middle_of_the_bed_and_a_plate_as_it_is(stand_in, tmp
     stand_in(f'echo "$@" > {tmp_path}/asked; cat "$(echo "$@" | sed "s/.*--load //; s/ .*//")" > {tmp_path}/settings\n'
              + writing(GCODE))  # fmt: skip
     printer = WORKSHOP.printer.model_copy(update={"bed_mm": (250.0, 210.0, 200.0)})
-    for slice_it, place in ((slice_part, "--center 125,105 "), (slice_plate, "--dont-arrange ")):
-        slice_it(tmp_path / "leg.stl", printer, WORKSHOP.process, MATERIAL)
+    for name, place in (("leg.stl", "--center 125,105 "), ("plate-1-PETG.3mf", "--dont-arrange ")):
+        slice_model(tmp_path / name, printer, WORKSHOP.process, MATERIAL)
         asked = (tmp_path / "asked").read_text()
         assert asked.startswith(f"--export-gcode {place}--load ")
-        assert asked.endswith(f" {tmp_path}/leg.stl\n")
+        assert asked.endswith(f" {tmp_path}/{name}\n")
         settings = dict(line.split(" = ") for line in (tmp_path / "settings").read_text().splitlines())
         assert settings["bed_shape"] == "0x0,250x0,250x210,0x210"
         assert settings.keys() == slicer_settings(printer, WORKSHOP.process, MATERIAL).keys()

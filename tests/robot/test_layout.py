@@ -24,8 +24,8 @@ from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot import layout as layout_module
 from jumpcad.robot.electronics.place import Electronics
 from jumpcad.robot.layout import Layout, make_layout, moving_obstacles
+from jumpcad.robot.space.inside import LEVER_HEAD_MM, legs_apart_mm
 from jumpcad.robot.space.room import EVERYWHERE, disc
-from jumpcad.robot.space.sweep import LEVER_HEAD_MM, legs_apart_mm
 from jumpcad.robot.train.place import require_gear_room
 from jumpcad.workshop import load_workshop
 
@@ -70,7 +70,7 @@ def plan_again(layout: Layout, **changed: Any) -> Layout:
         "electronics": layout.electronics, "hub_bearing": layout.hub_bearing, "toes_apart": layout.toes_apart,
         "workshop": load_workshop("default"), "roller": load_workshop("default").catalogue.bearings["623"],
         "plate_mm": round(float(np.ptp(layout.lateral.left_plate)), 6),
-        "leg_pin_hole_mm": layout.pin_hole.diameter_mm, "switch": layout.fittings.switch,
+        "leg_pin_hole_mm": layout.pin_hole.diameter_mm,
         "sensor": layout.sensor.needs if layout.sensor else None,
     }  # fmt: skip
     assert spring.arms.pin_radius_mm == layout.leg_pin_mm

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yourdfpy
 from support.built import built, geared
+from support.masses import in_plane
 from support.strengths import strength_findings
 
 from jumpcad.design import load_design
@@ -18,7 +19,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.robot.load_case import LoadCase, axle_beams
 from jumpcad.robot.robot import Robot
 from jumpcad.strength.axles import SCREW_CORE_MM, SCREW_THREAD_MM
-from jumpcad.strength.loads import MovingMass, push_off, toe_load_n
+from jumpcad.strength.loads import push_off, toe_load_n
 from jumpcad.transforms import Array
 
 
@@ -47,7 +48,7 @@ def test_the_push_off_is_that_of_the_body_in_the_plane_of_motion(axis: int, matt
     forces = LoadCase(replace(robot, bodies={**robot.bodies, BODY: moved})).forces.ground_n
     assert np.allclose(forces, LoadCase(robot).forces.ground_n, rtol=1e-3) == (not matters)
     gyration = 1000.0 * math.sqrt(moved.inertia_kg_m2[1, 1] / moved.mass_kg)
-    mass = MovingMass(moved.mass_kg, [1000.0 * moved.com_m[0], 1000.0 * moved.com_m[2]], gyration)
+    mass = in_plane(moved.mass_kg, (1000.0 * moved.com_m[0], 1000.0 * moved.com_m[2]), gyration)
     assert np.allclose(forces, push_off(robot.linkage, mass, robot.spring).ground_n)
 
 

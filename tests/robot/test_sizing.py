@@ -10,6 +10,7 @@ from support.workshops import workshop_with
 
 from jumpcad.design import load_design
 from jumpcad.dimensions import STOP_SEAT_MM
+from jumpcad.drive.spring_choice import springs_on_leg
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot import sizing
 from jumpcad.robot.sizing import TYPICAL_BODY, Sections, leg_flex_share, sections
@@ -30,7 +31,7 @@ def with_links(workshop: Workshop, **changes: float) -> Workshop:
 def test_ten_by_six_millimetres_of_petg_flex_as_the_hand_calculation_says() -> None:
     # U = T²·l/(6·E·I) for a uniform cantilever: 5.6 % of the springs' 0.72 J, at 15.6 MPa
     design = load_design("best-bo")
-    share = leg_flex_share(design, Beam(6.0, np.full(201, 10.0)), 2000.0)
+    share = leg_flex_share(design, Beam(6.0, np.full(201, 10.0)), 2000.0, springs_on_leg(design))
     torque = 1000.0 * design.peak_spring_torque_nm
     by_hand = torque**2 * design.l2_mm / (6.0 * 2000.0 * 500.0) / (1000.0 * design.spring_energy_j)
     assert share == pytest.approx(by_hand, rel=1e-3)

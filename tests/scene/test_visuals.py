@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.mechanism.mass import combined
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Piece, _corners_m, extent_m, seen, surface, visuals
 from jumpcad.solids.outline import rectangle
@@ -111,7 +111,7 @@ def test_a_prism_turned_anyhow_has_the_box_of_its_mesh(turn: tuple[float, float,
     exact = 0
     for part in robot.parts:
         points = part.mesh.vertices @ pose[:3, :3].T + pose[:3, 3]
-        low, high = 1000.0 * _corners_m(part.drawing.shape, in_metres(pose))
+        low, high = 1000.0 * _corners_m(part.shape, in_metres(pose))
         assert (low <= points.min(axis=0) + 0.02).all(), part.name
         assert (high >= points.max(axis=0) - 0.02).all(), part.name
         exact += np.allclose([low, high], [points.min(axis=0), points.max(axis=0)], atol=0.02)

@@ -10,8 +10,7 @@ from support import needs
 from support.machines import let_go
 
 from jumpcad.design import load_design
-from jumpcad.mechanism.model import BODY, FOOT, Friction
-from jumpcad.mechanism.poses import release_pose
+from jumpcad.mechanism.model import BODY, FOOT, Friction, release_pose
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings

@@ -27,7 +27,7 @@ def mujoco_there() -> None:
 def body(name: str, mass: float, com_x: float, inertia: float, feet: tuple[float, ...] = ()) -> Body:
     surface: Surface = "foot" if name == "foot" else "body"
     contacts = tuple(ContactSphere(f"{x}", np.array([x, 0.0, 0.0]), 0.001, surface) for x in feet)
-    return Body(name, mass, np.array([com_x, 0.0, 0.0]), inertia * np.eye(3), contacts)
+    return Body(mass, np.array([com_x, 0.0, 0.0]), inertia * np.eye(3), name, contacts)
 
 
 def hinge(name: str, parent: str, child: str, x: float, rest_deg: float, loaded_deg: float | None = None) -> Joint:

@@ -13,9 +13,8 @@ from support.flights import Flight
 from support.machines import let_go
 
 from jumpcad.exporters.mjcf import SUBSTEPS
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, release_pose
 from jumpcad.mechanism.planar import leg_inertia_kg_m2
-from jumpcad.mechanism.poses import release_pose
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named

@@ -16,8 +16,7 @@ from support.flights import Flight, com_x_m, make_lopsided
 from support.machines import let_go, rubbing
 
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism
-from jumpcad.mechanism.poses import body_poses, release_pose
+from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Mechanism, body_poses, release_pose
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import Settings, simulate
 from jumpcad.simulation.engines import engine_named

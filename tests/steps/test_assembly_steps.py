@@ -12,7 +12,7 @@ from support.built import LONG_TOES, built
 
 from jumpcad.building import build
 from jumpcad.design import load_design
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.steps.assembly_steps import REST, SIDES, TOOLS, Move, assembly_steps, travel

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from support.decimals import decimals
 from support.machines import PINS_M, rubbing
+from support.masses import in_plane
 
 from jumpcad.design import Design, load_design
 from jumpcad.mechanism.variants import capsule_robot
-from jumpcad.strength.loads import TILTING, MovingMass, pin_torque_nm, push_off
+from jumpcad.strength.loads import TILTING, pin_torque_nm, push_off
 
 
 def test_it_grows_with_coefficient_and_radius_and_each_pin_adds_its_own() -> None:
@@ -39,7 +40,7 @@ def test_each_pin_rubs_by_its_force_along_its_own_turn() -> None:
     body = replace(robot.bodies["body"], com_m=np.array([0.02, 0.005, 0.03]))  # x and height count, not its side
     robot = replace(robot, bodies={**robot.bodies, "body": body})
     gyration = 1000.0 * (body.inertia_kg_m2[1, 1] / body.mass_kg) ** 0.5
-    mass = MovingMass(body.mass_kg, np.array([20.0, 30.0]), gyration)
+    mass = in_plane(body.mass_kg, (20.0, 30.0), gyration)
     loads = push_off(robot.linkage, mass, robot.spring)
     pose = robot.linkage.pose(loads.leg_rad)
     leg, front, foot = robot.linkage.rest_rad + pose.leg_rad, robot.linkage.rest_rad + pose.front_rad, pose.foot_rad

@@ -10,8 +10,7 @@ from scipy.spatial.transform import Rotation
 from support.built import built
 
 from jumpcad.findings import Finding
-from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, FOOT, FRONT_LINK, MAIN_LEG, body_poses
 from jumpcad.studio.answers import Playback, Printed, ShownMoment, playback
 
 NAME = "kenan-2.0"

@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from support.built import built
 
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.scene.visuals import Visual, visuals
 from jumpcad.studio.stage import StudioStage
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from jumpcad.bundle.manifest import Bundle
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals
 from support import needs

@@ -31,7 +31,7 @@ def chamfered(robot: Robot, name: str) -> bool:
 
     It rises at 45° and is printed as steps, each as wide as the slope is in the middle of its layer.
     """
-    shape, fits = part(robot, name).drawing.shape, robot.workshop.fits
+    shape, fits = part(robot, name).shape, robot.workshop.fits
     bottom, above = (
         np.array(region.bounds()) for region in shape.regions_at([0.05, fits.first_layer_chamfer_mm + 0.2])
     )

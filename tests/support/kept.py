@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from jumpcad.printing.plates import PrintPlate
+from jumpcad.parts.plates import PrintPlate
 from jumpcad.robot.robot import Robot
 
 

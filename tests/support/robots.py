@@ -61,9 +61,9 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     )
     drawings.append(Drawing("ring", "gears", ring, places))
     parts = tuple(
-        Part(drawing, {"links": "PETG", "body": "PLA", "gears": "PETG"}[drawing.role],
-             drawing.shape.mass_properties(DENSITY_G_CM3), "solid")
-        for drawing in drawings
+        Part(one.name, one.role, one.shape, one.placements, "PLA" if one.role == "body" else "PETG",
+             one.shape.mass_properties(DENSITY_G_CM3), "solid")
+        for one in drawings
     )  # fmt: skip
     hardware = (
         *(
@@ -84,7 +84,7 @@ def make_small_robot(name: str = "kenan-2.0") -> Robot:
     for title, items in pieces.items():
         whole = combined(items)
         contacts = capsules.bodies[title].contacts
-        bodies[title] = Body(title, whole.mass_kg, whole.com_m, whole.inertia_kg_m2, contacts)
+        bodies[title] = Body.of(title, whole, contacts)
     workshop = load_workshop()
     whole_robot = build(design, workshop, name="")
     return Robot(

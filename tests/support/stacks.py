@@ -1,11 +1,13 @@
 """Stacks with the usual difficulties: shared, nearly shared and crossing outlines, pockets, bores, chamfers."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from jumpcad.solids.outline import disc, hole, polygon, rectangle, stadium, tapered_bar
 from jumpcad.solids.stack import Stack
 
-HOLED = Stack.of([(0, 3, rectangle((40, 30), (5, 0)) - hole(3.4, (-8, 6)))]).plus([(0, 9, disc(12, (12, 2)))])
+HOLED = Stack.of([(0, 3, rectangle((40, 30), (5, 0)) - hole(3.4, (-8, 6))), (0, 9, disc(12, (12, 2)))])
 """A plate with a hole, and a round boss three times as high."""
 
 
@@ -21,4 +23,5 @@ def random_stack(rng: np.random.Generator) -> Stack:
     ]
     pocket = polygon(q + rng.uniform(-4, 4, (3, 2)))
     cuts = [(z[0] - 0.5, z[2], hole(4.0, q)), (z[1] - rng.choice([0.0, 0.3]), z[2], pocket)]
-    return Stack.of(slabs).through(hole(3.2, p)).minus(cuts).chamfered(0.35, 0.2).rotated(rng.uniform(0, 360))
+    whole, turn_deg = Stack.of(slabs).through(hole(3.2, p)).minus(cuts).chamfered(0.35, 0.2), rng.uniform(0, 360)
+    return Stack(tuple(replace(slab, outline=slab.outline.rotate(turn_deg)) for slab in whole.slabs))

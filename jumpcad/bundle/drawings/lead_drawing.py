@@ -189,7 +189,7 @@ def _trays(robot: Robot, leads: list[Lead], top: float) -> dict[str, Any]:
         "left": left, "top": top, "plates": plates, "boxes": boxes, "frame": frame,
         "leads": [_lines(view, lead, 2, above, named) for lead in leads],
         "pads": [(view.on(at)[0], end.pin, end in ends, at[0] > middle) for end, at in pads.items()],
-        "unknown": [role for role, board in robot.electrical_parts.boards.items() if not (board.left or board.right)],
+        "unknown": [role for role, board in robot.layout.electronics.boards.items() if not (board.left or board.right)],
         "badges": _badges(view, leads, frame), "height": float(frame[1][1]) + MARGIN_MM,
     }  # fmt: skip
 

@@ -39,7 +39,7 @@ class Lead:
 
 def pads_of(robot: Robot) -> dict[Terminal, Array]:
     """Return the middles (3,) of the controller's pads whose places are known: in rows, USB at its plate."""
-    layout, board = robot.layout, robot.electrical_parts.controller
+    layout, board = robot.layout, robot.layout.electronics.controller
     seat, (x, z) = layout.electronics.seats(layout.lateral.inside)["controller"], layout.tray_mm
     pads: dict[Terminal, Array] = {}
     if layout.fittings.usb_mm is None:

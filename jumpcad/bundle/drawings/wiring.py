@@ -8,7 +8,6 @@ from typing import Any
 
 from jumpcad.bundle.drawings.lead_drawing import STROKES, leads_svg
 from jumpcad.electronics.nets import AT, Net, Terminal, Wiring
-from jumpcad.electronics.supply import Chosen
 from jumpcad.files.templates import fill
 from jumpcad.robot.electronics.leads import OWN_LEGS, has_own_legs, lead_lengths
 from jumpcad.robot.robot import Robot, decided_once
@@ -24,7 +23,7 @@ CONTROLLER = "controller"
 @decided_once
 def soldering_svg(robot: Robot) -> str:
     """Return the drawing; empty where nothing is soldered so, or where the board's sides are not known."""
-    board, wiring = robot.electrical_parts.controller, robot.wiring
+    board, wiring = robot.layout.electronics.controller, robot.wiring
     legs = {name: legs for name in OWN_LEGS if (legs := _legs(wiring, name))}
     if not legs or not (board.left or board.right):
         return ""
@@ -130,7 +129,7 @@ def wires(robot: Robot) -> list[tuple[str, Terminal, Terminal, str, float]]:
 def wiring_svg(robot: Robot) -> str:
     """Return a drawing of the net list: parts as boxes with their terminals, every net in a lane of its own (mm)."""
     nets = robot.wiring.nets
-    boxes, ends, height = _boxes(nets, _titles(robot.electrical_parts, robot.wiring, robot))
+    boxes, ends, height = _boxes(nets, _titles(robot))
     width = COLUMN_MM * (len(COLUMNS) - 1) + BOX_MM + 8.0 * len(nets) + 3.0 * MARGIN_MM
     wired = {name for name, *_, colour, _ in wires(robot) if colour}
     drawn = [
@@ -139,13 +138,14 @@ def wiring_svg(robot: Robot) -> str:
     return fill("drawings/wiring.svg.j2", {"width": width, "height": height, "nets": drawn, "boxes": boxes})
 
 
-def _titles(chosen: Chosen, wiring: Wiring, robot: Robot) -> dict[str, str]:
+def _titles(robot: Robot) -> dict[str, str]:
     """Return what each part is called."""
+    chosen = robot.layout.electronics
     titles = {role: f"{role}: {board.name}" for role, board in chosen.boards.items()}
     titles |= {role: f"{role}: {part.name}" for role, part in chosen.components.items()}
     titles |= {"battery": f"battery: {chosen.battery.name}", "motor": f"motor: {robot.layout.drive.train.motor.name}",
                "steering motor": f"steering: {robot.workshop.steering.motor}"}  # fmt: skip
-    return titles | {name: f"{name}: {ohm / 1000:g} kΩ" for name, ohm in wiring.resistors.items()}
+    return titles | {name: f"{name}: {ohm / 1000:g} kΩ" for name, ohm in robot.wiring.resistors.items()}
 
 
 def _boxes(nets: tuple[Net, ...], titles: dict[str, str]) -> tuple[list[dict[str, Any]], dict[Terminal, Point], float]:

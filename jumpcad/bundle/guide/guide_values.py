@@ -127,7 +127,7 @@ def _springs(robot: Robot) -> dict[str, Any]:
 def _sizes(robot: Robot) -> dict[str, Any]:
     """Return lengths (mm) and articles that tell one thing from another; nothing of what a robot lacks."""
     articles = defaultdict(str, {item.name: item.article for item in robot.hardware})
-    heights = defaultdict(float, {part.name: float(np.ptp(part.drawing.shape.bounds_mm[:, 2])) for part in robot.parts})
+    heights = defaultdict(float, {part.name: float(np.ptp(part.shape.bounds_mm[:, 2])) for part in robot.parts})
     low, high = robot.layout.lateral.outside
     window = window_mm(robot.layout.drive.train.motor)
     both = {1: "counter-clockwise", -1: "clockwise"}

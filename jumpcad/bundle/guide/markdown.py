@@ -15,7 +15,7 @@ from markdown_it.token import Token
 from jumpcad.building.bom import Bill, bill_of_materials, euros
 from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.exporters.xml import allowed
-from jumpcad.files.templates import render, templates_folder
+from jumpcad.files.templates import fill, render, templates_folder
 from jumpcad.parts.part import Part
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import CHOOSE
@@ -116,20 +116,8 @@ def write_page(guide: Mapping[str, str], name: str, pictures: Mapping[str, bytes
     links = _links(heads)
     (first,) = _sections(reader.parse(allowed(opening)), reader, pictures)
     style = "".join((templates_folder() / path).read_text(encoding="ascii") for path in STYLES)
-    return "\n".join(
-        [
-            "<!DOCTYPE html>",
-            '<html lang="en">',
-            '<head><meta charset="utf-8" /><meta name="viewport" content="width=device-width, initial-scale=1" />',
-            f"<title>{escape(allowed(name))}: assembly</title><style>{style}</style></head>",
-            "<body>",
-            f"{links}{first}",
-            *parts,
-            "</body>",
-            "</html>",
-            "",
-        ]
-    )
+    values = {"name": allowed(name), "style": style, "parts": [f"{links}{first}", *parts]}
+    return fill("guides/page.html.j2", values)
 
 
 def _document(tokens: list[Token], anchor: str, reader: MarkdownIt, pictures: Mapping[str, bytes]) -> str:

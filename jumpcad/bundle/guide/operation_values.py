@@ -31,7 +31,7 @@ BOX_FREE_MM = 8.0
 def operation_values(robot: Robot) -> dict[str, Any]:
     """Return articles, currents (mA), voltages (V), times (s, ms) and energies (J) by the names that templates use."""
     workshop, train, cam = robot.workshop, robot.layout.drive.train, robot.layout.drive.cam
-    chosen, program = robot.electrical_parts, firmware.numbers(robot)
+    chosen, program = robot.layout.electronics, firmware.numbers(robot)
     supply, wiring = robot.supply, robot.wiring
     battery, controller = chosen.battery, chosen.controller
     free = supply.driven(train.motor, supply.nominal_v, workshop.safety.motor_torque_max_nm)

@@ -47,7 +47,7 @@ ROOM_MM = 0.5
 
 def order_values(robot: Robot, bill: Bill) -> dict[str, Any]:
     """Return what is printed, cut, bought and used (mm, m, g, A), by the names that templates use."""
-    workshop, layout, chosen = robot.workshop, robot.layout, robot.electrical_parts
+    workshop, layout, chosen = robot.workshop, robot.layout, robot.layout.electronics
     pads = printed_pads(robot.hardware, workshop)
     usb = layout.fittings.usb_size_mm if layout.fittings.usb_mm is not None else None
     return {
@@ -83,7 +83,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
     return {
         "rod": cage.rod, "cut": cut, "rods": len(left), "rod_m": rod_m,
         "bar_mm": {
-            part.name.removeprefix("cage_bar_"): float(np.ptp(part.drawing.shape.bounds_mm[:, 0]))
+            part.name.removeprefix("cage_bar_"): float(np.ptp(part.shape.bounds_mm[:, 0]))
             for part in robot.parts
             if part.name.startswith("cage_bar_")
         },
@@ -99,7 +99,7 @@ def _cage(robot: Robot) -> dict[str, Any] | None:
 
 def strap_mm(robot: Robot) -> float:
     """Return the length of the battery's strap: around battery and tray through both slots, and the overlap."""
-    battery = robot.electrical_parts.battery
+    battery = robot.layout.electronics.battery
     across, upright = battery.width_mm + 2.0 * STRAP_SLOT_MM[0], battery.height_mm + TRAY_MM
     return 5.0 * math.ceil((2.0 * (across + upright) + STRAP_OVERLAP_MM) / 5.0)
 
@@ -167,7 +167,7 @@ def _bars(robot: Robot, bill: Bill) -> dict[str, Any] | None:
         "cut": cut,
         "long_mm": 10.0 * math.ceil(sum(count * (length + SAW_MM) for count, length in cut) / 10.0),
         "off_mm": (END_PLAY_MM, BAR_SHORT_MM),
-        "eyes_mm": (layout.design.l2_mm, layout.design.l3_mm),
+        "eyes_mm": layout.design.links_mm[:2],
         "eyes_off_mm": EYES_OFF_MM,
     }
 

@@ -20,8 +20,8 @@ from jumpcad.parts.part import Drawing, Placement, lying_on_right
 from jumpcad.parts.purchased import BoughtPart, bought
 from jumpcad.robot.axles.steel import BASIS, steel_findings
 from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.robot.sensor.place import GEAR_PLAY_MM
-from jumpcad.robot.thing import Check, Thing
 from jumpcad.solids.outline import Region, disc, hexagon, hole, rectangle, ring, union
 from jumpcad.solids.slab import Interval
 from jumpcad.solids.stack import Stack

@@ -13,7 +13,7 @@ from jumpcad.dimensions import TIE_SLOT_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement
-from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.purchased import TIE, TIE_G, TIE_MM, BoughtPart
 from jumpcad.robot.cage.limits import BASIS, cage_findings
 from jumpcad.robot.cage.place import (
     BAR_MM,
@@ -33,9 +33,8 @@ from jumpcad.robot.cage.place import (
     horn_mm,
     plate_ends_mm,
 )
-from jumpcad.robot.electronics.wired import TIE, TIE_G, TIE_MM
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.thing import Check, Thing
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.solids.outline import Region, disc, hull, polygon, rectangle, stadium, strips, union
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire

@@ -9,10 +9,11 @@ import numpy as np
 from jumpcad.catalogue import Component
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STANDOFF_RADIUS_MM, TRAY_MM
 from jumpcad.findings import higher
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.robot.electronics.place import TAPE_MM, Electronics, Side
-from jumpcad.robot.space.lateral import Lateral
-from jumpcad.robot.space.room import EVERYWHERE, LONGER_BODY, Obstacle, best_place, box_obstacle, disc, grid_candidates
+from jumpcad.robot.space.inside import Lateral
+from jumpcad.robot.space.room import EVERYWHERE, Obstacle, best_place, box_obstacle, disc, grid_candidates
 from jumpcad.solids.outline import Region, hole, rectangle, stadium
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
@@ -113,8 +114,8 @@ class Fittings:
 
 
 def fittings_of(
-    obstacles: list[Obstacle], lateral: Lateral, electronics: Electronics, tray_mm: Array, switch: Component | None,
-    seats: list[Array], seat_mm: float,
+    obstacles: list[Obstacle], lateral: Lateral, electronics: Electronics, tray_mm: Array, seats: list[Array],
+    seat_mm: float,
 ) -> Fittings:  # fmt: skip
     """Return the places of all openings, as near to the boards as the plates are free.
 
@@ -131,7 +132,7 @@ def fittings_of(
     left = _near(middle, free, HOLE_HALF_MM, (high - 3.0, high + 8.0), "hole for the sensor's wires")
     right = _near(middle, free, HOLE_HALF_MM, (low - 8.0, low + 3.0), "hole for the motor's wires")
     free += [box_obstacle("hole for wires", right, HOLE_HALF_MM, 0.0, (low - 8.0, low + 8.0))]
-    place = None
+    place, switch = None, electronics.components.get("switch")
     if switch is not None and switch.length_mm:
         half = switch_half_mm(switch)
         depth = (low - 8.0, low + (switch.height_mm or 0.0) + SWITCH_DEPTH_MM)

@@ -8,12 +8,13 @@ import numpy as np
 
 from jumpcad.electronics.supply import Chosen, Link, Supply, chain
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, limit
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.robot.electronics import wiring
 from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.layout import moving_obstacles
 from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.room import LONGER_BODY, bar, clearance
+from jumpcad.robot.space.room import bar, clearance
 
 ROUND_OFF_V = 1e-9
 SHEETS = "ratings: makers' data sheets, templates/hardware/electronics.toml"
@@ -47,7 +48,7 @@ BASIS = {
 
 def electronics_findings(robot: Robot) -> Iterator[Finding]:
     """Yield `supply_voltage_*`, `motor_current_*`, `gearbox_torque`, `charging_current` and `wiring_*`."""
-    chosen = robot.electrical_parts
+    chosen = robot.layout.electronics
     supply = robot.supply
     for link in links(robot):
         yield _voltage(link)
@@ -59,7 +60,7 @@ def electronics_findings(robot: Robot) -> Iterator[Finding]:
 
 def links(robot: Robot) -> list[Link]:
     """Return the chain of a robot, from the regulator to the winding."""
-    chosen, train = robot.electrical_parts, robot.layout.drive.train
+    chosen, train = robot.layout.electronics, robot.layout.drive.train
     torque_max = robot.workshop.safety.motor_torque_max_nm
     return list(chain(chosen, train.motor, robot.supply, train.peak_current_a, torque_max))
 

@@ -8,8 +8,9 @@ from typing import Literal
 
 import numpy as np
 
-from jumpcad.catalogue import Battery, Board, Component
+from jumpcad.catalogue import Component
 from jumpcad.dimensions import STRAP_EDGE_MM, STRAP_SLOT_MM, TIE_SLOT_MM, TRAY_LENGTH_MIN_MM, TRAY_MM
+from jumpcad.electronics.supply import Chosen
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
@@ -53,8 +54,8 @@ class Seat:
 
 
 @dataclass(frozen=True)
-class Electronics:
-    """Battery, boards, plug and capacitor that the trays carry.
+class Electronics(Chosen):
+    """Battery, boards, plug and capacitor as the trays carry them.
 
     The battery is strapped to the lower tray. On the upper one the boards lie in a row across it, from the back: the
     controller with its USB socket at one plate, `usb_side`, the others at the other. The capacitor lies beside the
@@ -64,13 +65,6 @@ class Electronics:
     `wall_mm` is the thinnest wall that can be printed, `play_mm` that of a tray between the plates on either side.
     """
 
-    battery: Battery
-    controller: Board
-    driver: Board
-    regulator: Board | None = None
-    plug: Component | None = None
-    capacitor: Component | None = None
-    gyroscope: Board | None = None
     wall_mm: float = WALL_MM
     play_mm: float = PLAY_MM
     battery_side: Side | None = None
@@ -90,13 +84,6 @@ class Electronics:
     def ties_apart_mm(self) -> float:
         """From one board to the next: the ties of both, and a wall between them."""
         return 2.0 * (SEAT_PLAY_MM + TIE_SLOT_MM[0]) + max(WALL_MM, self.wall_mm)
-
-    @property
-    def boards(self) -> dict[str, Board]:
-        """The boards by their roles, in the order in which they lie on the upper tray, from the back."""
-        boards = {"controller": self.controller, "driver": self.driver, "regulator": self.regulator,
-                  "gyroscope": self.gyroscope}  # fmt: skip
-        return {role: board for role, board in boards.items() if board}
 
     @property
     def names(self) -> str:
@@ -172,8 +159,8 @@ class Electronics:
     @property
     def tied(self) -> dict[str, Component]:
         """Capacitor and plug, as far as their sizes are known."""
-        parts = {"capacitor": self.capacitor, "plug": self.plug}
-        return {role: part for role, part in parts.items() if part is not None and part.length_mm}
+        parts = ((role, self.components.get(role)) for role in ("capacitor", "plug"))
+        return {role: part for role, part in parts if part is not None and part.length_mm}
 
     def _neighbour(self, role: str) -> str:
         """Return what lies beside a board: the capacitor, the plug, or nothing."""

@@ -13,8 +13,7 @@ from jumpcad.dimensions import TOE_TIP_WIDTH_MM
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.model import FOOT
 from jumpcad.parts.holes import HoleSizes
-from jumpcad.parts.part import Drawing, Placement, upright
-from jumpcad.printing.bed import fit_to_bed
+from jumpcad.parts.part import Drawing, Placement, fit_to_bed, upright
 from jumpcad.robot.foot.toes import PIN_END_MM, lying_hole, on_the_foot, toes_apart
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sizing import Sections, beside_leg_mm

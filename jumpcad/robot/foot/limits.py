@@ -17,7 +17,7 @@ from jumpcad.robot.load_case import IN_PLANE, INTERLAYER, ONE_TOE, PUSH_OFF, WEA
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sizing import TWIST_FACTOR, rail_middle_mm
 from jumpcad.robot.stop.place import TAB_MM
-from jumpcad.robot.train.motor_socket import ear_places, motor_box
+from jumpcad.robot.train.thing import ear_places, motor_box
 from jumpcad.strength.loads import rail_moment_nmm, rail_twist_nmm, toe_moment_nmm
 from jumpcad.strength.stress import STATIONS, VON_MISES, Beam, bar_shear_mpa, eye_stress_mpa, tapered_stress_mpa
 from jumpcad.transforms import Array, direction

@@ -18,8 +18,7 @@ from jumpcad.robot.foot import limits
 from jumpcad.robot.foot.drawing import foot_and_toes
 from jumpcad.robot.foot.pads import foot_hardware
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.robot import Robot
-from jumpcad.robot.thing import Check, Thing
+from jumpcad.robot.robot import Check, Robot, Thing
 from jumpcad.transforms import Array
 
 POSITIONS = 9

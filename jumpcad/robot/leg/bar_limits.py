@@ -17,7 +17,7 @@ from jumpcad.robot.leg.drawing import front_bar_place, leg_bar_place
 from jumpcad.robot.leg.place import BarPlace
 from jumpcad.robot.load_case import IN_PLANE, LANDING, ONE_TOE, LoadCase, stress_finding
 from jumpcad.strength import stress
-from jumpcad.transforms import Array
+from jumpcad.strength.stress import buckling_load_n, tapered_energy_nmm, tube_shear_mpa
 
 STATIONS = 65
 """Sections along a leg at which its bending energy is summed."""
@@ -66,27 +66,12 @@ def bar_sideways_mpa(bar: LegBar, moment_nmm: float) -> float:
 
 
 def bar_shear_mpa(bar: LegBar, force_n: float, twist_nmm: float) -> float:
-    """Return the shear stress of a bar: 2·F/A of a force across a tube, 1.5·F/A of a strip, and that of its torsion.
-
-    Torsion: 16·T·D/(pi·(D⁴ - d⁴)) of a tube.
-    """
+    """Return the shear stress of a bar: 2·F/A of a force across a tube, 1.5·F/A of a strip, and that of its torsion."""
     if bar.round:
-        torsion = 16.0 * twist_nmm * bar.width_mm / (math.pi * (bar.width_mm**4 - bar.bore_mm**4))
+        torsion = tube_shear_mpa(twist_nmm, bar.width_mm, bar.bore_mm)
     else:
         torsion = float(stress.bar_shear_mpa(twist_nmm, bar.width_mm, bar.height_mm))
     return (2.0 if bar.round else 1.5) * force_n / bar.area_mm2 + torsion
-
-
-def bent_energy_nmm(stiffness_nmm2: Array, moment_nmm: float, length_mm: float) -> float:
-    """Return the bending energy of a cantilever with a force at its tip, by stiffness E·I (n,) along it."""
-    share = np.linspace(1.0, 0.0, len(stiffness_nmm2))
-    return float(np.trapezoid((moment_nmm * share) ** 2 / (2.0 * stiffness_nmm2), dx=length_mm / (len(share) - 1)))
-
-
-def buckling_n(bar: LegBar, length_mm: float) -> float:
-    """Return Euler's load of a bar with a hinge at either end, about its weaker axis."""
-    weaker = min(bar.second_moment_mm4, bar.sideways_mm4)
-    return math.pi**2 * bar.modulus_mpa * weaker / length_mm**2
 
 
 OTHER = (*choose("a stronger", "bought.leg"), 'bought.leg = ""')
@@ -157,7 +142,7 @@ def leg_bar_findings(case: LoadCase) -> Iterator[Finding]:
         f"{100 * share:.1f} % of the springs' energy bends the main leg and its bar at release; {100 * allowed:g} % "
         "are allowed", OTHER, value=100.0 * share, allowed=100.0 * allowed,
     )  # fmt: skip
-    load = buckling_n(bar, design.l3_mm) / factor
+    load = buckling_load_n(min(bar.second_moment_mm4, bar.sideways_mm4), design.l3_mm, bar.modulus_mpa) / factor
     yield at_most(
         "front_bar_buckling", case.landing_n, load, "N",
         f"the front link's bar under the whole landing force: {case.landing_n:.1f} of {load:.1f} N (Euler)", OTHER,
@@ -183,4 +168,4 @@ def _bent_nmm(case: LoadCase, place: BarPlace) -> float:
     )
     carbon = place.bar.modulus_mpa * place.bar.second_moment_mm4
     middle = (place.floor_mm + place.mouth_mm) / 2.0
-    return bent_energy_nmm(np.where(x < middle, plastic, carbon), case.torque_nmm, length)
+    return tapered_energy_nmm(np.where(x < middle, plastic, carbon), case.torque_nmm, length)

@@ -15,7 +15,7 @@ from jumpcad.dimensions import CLEAR_MM, PIN_HOLE_EDGE_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import higher, lower
 from jumpcad.mechanism.linkage import Linkage
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.robot.space.room import Obstacle, clearance, disc, shortfall
 from jumpcad.robot.stop.place import StopPlace, stop_obstacles, stop_tab_obstacle
 from jumpcad.solids.slab import Interval

@@ -16,9 +16,8 @@ from jumpcad.findings import Basis, Finding, at_most, choose, higher, limit, low
 from jumpcad.robot.leg import bar_limits
 from jumpcad.robot.leg.drawing import leg_hardware, legs
 from jumpcad.robot.load_case import IN_PLANE, LANDING, PUSH_OFF, WEAKER, load_case, stress_finding
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Check, Robot, Thing
 from jumpcad.robot.sizing import leg_flex_share
-from jumpcad.robot.thing import Check, Thing
 from jumpcad.strength.stress import (
     STATIONS,
     Beam,
@@ -80,7 +79,7 @@ def leg_findings(robot: Robot) -> Iterator[Finding]:
     along = cam.peak_contact_n * math.sin(cam.max_pressure_angle_rad)
     stress = tapered_stress_mpa(Beam(sections.thickness_mm, heights, case.shell), case.torque_nmm, along)
     yield stress_finding("lever_strength", "lever in bending, springs loaded", stress, most, WEAKER, "lever")
-    if layout.leg_bar is None:  # else `leg_bar_flex`
+    if layout.leg_bar is None:
         share = leg_flex_share(layout.design, leg, links.modulus_mpa, robot.spring)
         allowed = case.workshop.safety.leg_flex_share
         yield limit(
@@ -88,12 +87,13 @@ def leg_findings(robot: Robot) -> Iterator[Finding]:
             f"{100 * share:.1f} % of the springs' energy bends the main leg at release; {100 * allowed:g} % are "
             "allowed", WEAKER, value=100.0 * share, allowed=100.0 * allowed, grows="leg",
         )  # fmt: skip
-    yield from bar_limits.leg_bar_findings(case)
+    else:
+        yield from bar_limits.leg_bar_findings(case)
     front = sections.front(case.shell)
     stress = float(front.stress_mpa(0.0, case.front_n))
     yield stress_finding("front_link_strength", "front link along its length at release", stress, most, WEAKER, "front")
     if layout.leg_bar is None:  # else `front_bar_buckling`
-        load = buckling_load_n(front, layout.design.l3_mm, links.modulus_mpa)
+        load = buckling_load_n(front.second_moment_mm4, layout.design.l3_mm, links.modulus_mpa)
         allowed = load / case.workshop.safety.printed_factor
         yield at_most(
             "front_link_buckling", case.landing_n, allowed, "N",

@@ -18,7 +18,7 @@ from jumpcad.robot.steering.drawing import tail
 from jumpcad.robot.steering.place import Steering
 from jumpcad.robot.stop.place import EAR_MM
 from jumpcad.robot.stop.thing import stop_slot
-from jumpcad.robot.train.motor_socket import socket_outline
+from jumpcad.robot.train.thing import socket_outline
 from jumpcad.solids.outline import (
     SAGITTA_MM,
     Region,

@@ -20,13 +20,12 @@ from jumpcad.robot.electronics.fittings import fitting_openings
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.load_case import IN_PLANE, load_case, stress_finding
 from jumpcad.robot.plates.outline import blank_of, outline, pin_hole, tray_slots
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Check, Robot, Thing
 from jumpcad.robot.sensor.thing import plate_opening, plate_pad
 from jumpcad.robot.steering.drawing import tail_slot
 from jumpcad.robot.steering.place import Steering
 from jumpcad.robot.stop.thing import stop_slot
-from jumpcad.robot.thing import Check, Thing
-from jumpcad.robot.train.motor_socket import ear_places, motor_box, socket_outline
+from jumpcad.robot.train.thing import ear_places, motor_box, socket_outline
 from jumpcad.solids.outline import Region, contained, engravable, hole, middle_of, rectangle, ring, text, union
 from jumpcad.workshop import Workshop
 
@@ -112,7 +111,7 @@ def _drawing(
         letters = letters_on(label, bare, mirrored=face == "left")
         if letters is not None:
             cut, _ = lying_stack([(*engraved_y, letters)], face)
-            stack = stack.minus(cut)
+            stack = stack.minus(cut.slabs)
     return Drawing(name, "body", holes.chamfered(stack), (Placement(BODY, pose),))
 
 

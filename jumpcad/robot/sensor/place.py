@@ -15,7 +15,7 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, PAD_WALL_MM
 from jumpcad.drive import Drive
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, higher
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.robot.space.room import TURN_STEPS, Obstacle, around, best_place, box_obstacle, disc, shortfall
 from jumpcad.transforms import Array
 

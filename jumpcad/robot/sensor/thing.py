@@ -12,9 +12,9 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_right
 from jumpcad.parts.purchased import BoughtPart, bought, placed_screw
 from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.robot.sensor.limits import BASIS, sensor_findings
 from jumpcad.robot.sensor.place import EAR_RADIUS_MM, MOUNT_PLAY_MM, MOUNT_WALL_MM, OPENING_MM, SensorPlace
-from jumpcad.robot.thing import Check, Thing
 from jumpcad.solids.outline import Region, disc, hole, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import Array, pose_about_z

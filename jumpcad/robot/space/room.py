@@ -13,12 +13,11 @@ import numpy as np
 import numpy.typing as npt
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Remedy, higher
+from jumpcad.findings import Remedy
 from jumpcad.transforms import Array
 
 EVERYWHERE = (-math.inf, math.inf)
 """The interval of every y."""
-LONGER_BODY = higher("d_coef", "carrying_link_mm", note="a longer body")
 """What makes room between the plates."""
 BAR_SPACING_MM = 4.0
 """Distance between the points of a bar; judgement: notches of 0.4 mm between discs of 5 mm radius."""

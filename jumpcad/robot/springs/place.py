@@ -12,7 +12,7 @@ from jumpcad.dimensions import CLEAR_MM, GAP_MM, SPRING_BOSS_MIN_MM, SPRING_BOSS
 from jumpcad.drive import TorsionSpring
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import Remedy, higher, lower
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.robot.space.room import Obstacle, around, bar, best_place, clearance, disc
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array

@@ -14,8 +14,8 @@ from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right
 from jumpcad.parts.purchased import BoughtPart, bought, interval
 from jumpcad.robot.layout import Layout
+from jumpcad.robot.robot import Thing
 from jumpcad.robot.springs.place import arm_line
-from jumpcad.robot.thing import Thing
 from jumpcad.solids.outline import disc, hole, ring, stadium
 from jumpcad.solids.stack import Stack
 from jumpcad.solids.tube import DrawnWire

@@ -13,9 +13,8 @@ from jumpcad.dimensions import PAD_WALL_MM, TIE_SLOT_MM
 from jumpcad.mechanism.model import BODY
 from jumpcad.parts.holes import HoleSizes
 from jumpcad.parts.part import Drawing, Placement
-from jumpcad.parts.purchased import BoughtPart
+from jumpcad.parts.purchased import TIE, TIE_G, BoughtPart
 from jumpcad.robot.electronics.leads import lead_lengths
-from jumpcad.robot.electronics.wired import TIE, TIE_G
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.place import (

@@ -11,7 +11,7 @@ from jumpcad.drive.motor import EMPTY_SHARE, free_speed_rad_s
 from jumpcad.findings import Basis, Finding, at_least, at_most, choose, higher, lower
 from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.mechanism.mass import MassProperties, combined
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.cage.limits import FALLS
 from jumpcad.robot.robot import Robot, decided_once
 from jumpcad.robot.steering.place import LEAST_MM, PLAY_MM, SLOT_EDGE_MM, TAB_MM, WALL_MM, Steering

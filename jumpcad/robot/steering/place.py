@@ -20,8 +20,8 @@ from jumpcad.mechanism.linkage import toe_tip_mm
 from jumpcad.robot.cage.place import LAP_HEIGHT_MM, Cage
 from jumpcad.robot.layout import Layout, moving_obstacles
 from jumpcad.robot.sizing import beside_leg_mm
+from jumpcad.robot.space.inside import FOOT_POSITIONS, foot_obstacle, hub_obstacles
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle, clearance, disc
-from jumpcad.robot.space.sweep import FOOT_POSITIONS, foot_obstacle, hub_obstacles
 from jumpcad.robot.stop.place import stop_obstacles
 from jumpcad.transforms import Array, ByValue, direction, pose_about_y
 from jumpcad.workshop import Workshop

@@ -1,8 +1,8 @@
 """Its doors."""
 
+from jumpcad.robot.robot import Check, Thing
 from jumpcad.robot.steering.drawing import steering_hardware, steering_parts
 from jumpcad.robot.steering.limits import BASIS, steering_findings
 from jumpcad.robot.steering.place import steering_place
-from jumpcad.robot.thing import Check, Thing
 
 STEERING = Thing(steering_parts, steering_hardware, (Check(steering_findings, BASIS),), steering_place)

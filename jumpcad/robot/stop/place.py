@@ -14,10 +14,10 @@ from jumpcad.catalogue import Pad
 from jumpcad.dimensions import CLEAR_MM, GAP_MM, STOP_EDGE_MM, STOP_PAD_MM, STOP_SEAT_MM
 from jumpcad.errors import CannotBuildError
 from jumpcad.findings import choose, higher, lower
-from jumpcad.mechanism.linkage import Linkage
+from jumpcad.mechanism.linkage import FARTHER_PAST_REST, Linkage
 from jumpcad.robot.sizing import Sections
+from jumpcad.robot.space.inside import legs_apart_mm
 from jumpcad.robot.space.room import Obstacle, box_obstacle, clearance, shortfall
-from jumpcad.robot.space.sweep import legs_apart_mm
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array, direction
 from jumpcad.workshop.workshop import STOP_PAD_MIN_MM
@@ -127,7 +127,7 @@ def stop_angle_rad(linkage: Linkage, sections: Sections, wanted_rad: float, gap_
             raise CannotBuildError(
                 f"no rest stop: {missing} with the leg {math.degrees(angle + GIVE_ROOM_RAD):.1f}° past rest, which a "
                 f"stop at {LEAST_DEG:g}° and its pad's deflection need",
-                "stop_reach", -short, ways=lower("rest_angle_deg") + higher("d_coef", "c_coef"),
+                "stop_reach", -short, ways=FARTHER_PAST_REST,
             )  # fmt: skip
         angle = max(angle - math.radians(STEP_DEG), least)
 

@@ -20,9 +20,8 @@ from jumpcad.parts.part import Drawing, Placement
 from jumpcad.robot.foot.pads import stop_pad
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.load_case import LoadCase, load_case, stress_finding
-from jumpcad.robot.robot import Robot
+from jumpcad.robot.robot import Check, Robot, Thing
 from jumpcad.robot.stop.place import EAR_MM, GIVE_ROOM_RAD, TAB_MM
-from jumpcad.robot.thing import Check, Thing
 from jumpcad.solids.outline import Region, hull, rectangle, union
 from jumpcad.solids.stack import Stack
 from jumpcad.strength.axles import AxleBeam

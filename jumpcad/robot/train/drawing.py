@@ -21,7 +21,6 @@ from jumpcad.parts.part import Drawing, Placement, lying_on_left, lying_on_right
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.sensor.place import GEAR_PLAY_MM, TRACK_WALL_MM, SensorPlace
 from jumpcad.robot.sizing import dog_inside_mm
-from jumpcad.robot.train.motor_socket import motor_cap
 from jumpcad.solids.outline import Region, d_bore, disc, hole, polygon, rectangle, ring, rounded, union
 from jumpcad.solids.stack import Stack
 from jumpcad.transforms import pose_about_z
@@ -36,11 +35,6 @@ SECTOR_POINTS = 16
 """On the rim of a sector: twice as far out as what it cuts, so that few are enough."""
 RIB_MM, RIB_ROOT_MM = 0.6, 0.2
 """Width of a crush rib, and how far it reaches into the gear; judgement: little more than a printed line."""
-
-
-def train(layout: Layout, workshop: Workshop) -> list[Drawing]:
-    """Return cam, gears and the motor's cap."""
-    return [cam(layout, workshop), *gears(layout, workshop), motor_cap(layout, workshop)]
 
 
 def cam(layout: Layout, workshop: Workshop) -> Drawing:

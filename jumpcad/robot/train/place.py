@@ -10,9 +10,9 @@ from jumpcad.dimensions import CAP_EAR_MM, CLEAR_MM, GAP_MM, SPACER_RADIUS_MM
 from jumpcad.drive import Drive
 from jumpcad.drive.motor import socket_half_mm
 from jumpcad.errors import CannotBuildError
-from jumpcad.findings import Remedy
+from jumpcad.mechanism.linkage import LONGER_BODY
 from jumpcad.robot.space import room as rooms
-from jumpcad.robot.space.lateral import Lateral
+from jumpcad.robot.space.inside import Lateral
 from jumpcad.solids.slab import Interval
 from jumpcad.transforms import Array
 
@@ -53,7 +53,8 @@ def train_places(
     stages, motor = drive.train.stages, drive.train.motor
     half = socket_half_mm(motor, ear_mm)
     body_y = (lateral.inside[0], lateral.gears[-1][0] - GAP_MM)
-    tip, ways = stages[0].pinion.tip_radius_mm, _smaller(motor)
+    smaller = f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
+    tip, ways = stages[0].pinion.tip_radius_mm, (*LONGER_BODY, smaller)
     meshes_with = "cam gear" if len(stages) == 1 else "idler wheel"
 
     def motor_place(axis: Array, extra: list[rooms.Obstacle]) -> tuple[Array, float]:
@@ -91,11 +92,6 @@ def train_places(
         raise CannotBuildError("no room for the idler and the motor beside the cam", ways=ways)
     _, index, place, angle = best
     return idlers[index], place, angle
-
-
-def _smaller(motor: Motor) -> Remedy:
-    smaller = f"allow a smaller motor than {motor.name} ({motor.width_mm:g} x {motor.height_mm:g} mm)"
-    return (*rooms.LONGER_BODY, smaller)
 
 
 def _idler_places(obstacles: list[rooms.Obstacle], drive: Drive, lateral: Lateral, cam_axis: Array) -> Array:

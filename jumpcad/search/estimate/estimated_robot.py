@@ -24,7 +24,7 @@ from jumpcad.mechanism.model import BODY, BODY_NAMES, FOOT, Body, ContactSphere,
 from jumpcad.mechanism.variants import capsule_robot
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.space.sweep import legs_apart_mm
+from jumpcad.robot.space.inside import legs_apart_mm
 from jumpcad.scene.visuals import extent_m
 
 EXTENTS = ("extent_x_m", "extent_y_m", "extent_z_m")
@@ -115,7 +115,7 @@ def _body(plain: Body, figures: Mapping[str, float], like: Body) -> Body:
     com = np.array([figures[f"{name}_com_x_m"], 0.0, figures[f"{name}_com_z_m"]])
     inertia = figures[f"{name}_inertia_kg_m2"] * np.diag([0.6, 1.0, 0.6])  # any about x and z: it turns about y
     contacts = tuple(_contact(contact, figures, like) for contact in plain.contacts)
-    return Body(name, figures[f"{name}_mass_kg"], com, inertia, contacts)
+    return Body(figures[f"{name}_mass_kg"], com, inertia, name, contacts)
 
 
 def _contact(contact: ContactSphere, figures: Mapping[str, float], like: Body) -> ContactSphere:

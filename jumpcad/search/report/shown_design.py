@@ -90,7 +90,7 @@ def _lines(trial: Trial) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     design, metrics = trial.design, trial.evaluation.metrics
     values = design.model_dump() | dict(trial.workshop)
     first = [(name, with_unit(value_words(value, 5), name)) for name, value in values.items()]
-    lengths = (design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
+    lengths = design.links_mm
     first.append(("main leg, front link, foot, toe", ", ".join(f"{length:.1f}" for length in lengths) + " mm"))
     first.append(figure_words("spring_energy_j", metrics.get("spring_energy_j", energy_j(design))))
     first += [figure_words(name, metrics[name]) for name in HEADLINES if name in metrics]

@@ -18,7 +18,7 @@ from jumpcad.files import templates_folder
 PRESENTATION = (
     "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/dxf.",
     "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.", "exporters/step.",
-    "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "printing/plates.",
+    "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "parts/plates.",
     "printing/prusaslicer.", "remedies.", "scene/labels.", "scene/raster.", "scene/renderer.",
     "search/report/", "steps/step_", "studio/", "templates/", "validation/",
 )  # fmt: skip

@@ -22,7 +22,7 @@ def generate_launch_description():
     description = ParameterValue(command, value_type=str)
     spawners = [
         Node(package="controller_manager", executable="spawner", arguments=[name])
-        for name in ("joint_state_broadcaster", "cam@STEER_SPAWNER@")
+        for name in ("joint_state_broadcaster", "cam@WHEEL@", "steer@END@")
     ]
     return LaunchDescription(
         [

@@ -18,8 +18,7 @@ from jumpcad.errors import CannotBuildError
 from jumpcad.exporters.mjcf_robot import write_robot
 from jumpcad.exporters.sdf import write_sdf
 from jumpcad.exporters.urdf import write_urdf
-from jumpcad.mechanism.model import BODY
-from jumpcad.mechanism.poses import body_poses
+from jumpcad.mechanism.model import BODY, body_poses
 from jumpcad.robot.cage.place import SOCKET_MM, Cage
 from jumpcad.robot.robot import Robot
 from jumpcad.scene.visuals import visuals

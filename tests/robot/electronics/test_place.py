@@ -19,7 +19,8 @@ def test_what_lies_on_a_tray_has_its_own_place_between_the_plates(wall_mm: float
     parts = CATALOGUE.components
     full = replace(
         CARRIED, regulator=CATALOGUE.boards["s7v7f5"],
-        plug=parts["jst-ph-2"], capacitor=parts["electrolytic-100uf"], wall_mm=wall_mm, play_mm=play_mm,
+        components={"plug": parts["jst-ph-2"], "capacitor": parts["electrolytic-100uf"]},
+        wall_mm=wall_mm, play_mm=play_mm,
     )  # fmt: skip
     inside = (-full.width_mm / 2.0, full.width_mm / 2.0)
     boxes = {

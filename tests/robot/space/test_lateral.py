@@ -6,7 +6,7 @@ import pytest
 
 from jumpcad.catalogue import load_catalogue
 from jumpcad.dimensions import GAP_MM
-from jumpcad.robot.space.lateral import Lateral, lateral_stack
+from jumpcad.robot.space.inside import Lateral, lateral_stack
 
 MOTOR = load_catalogue().motors["n20-298"]
 """An N20: 24 mm over motor and gearbox."""

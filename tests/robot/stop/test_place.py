@@ -12,8 +12,8 @@ from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.inside import legs_apart_mm
 from jumpcad.robot.space.room import disc
-from jumpcad.robot.space.sweep import legs_apart_mm
 from jumpcad.robot.stop.place import stop_angle_rad, stop_place
 
 

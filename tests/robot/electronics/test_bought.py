@@ -11,7 +11,7 @@ from jumpcad.bundle.drawings.lead_lines import pads_of
 from jumpcad.catalogue import load_catalogue
 from jumpcad.electronics.nets import Terminal, wiring_of
 from jumpcad.electronics.supply import chosen_of
-from jumpcad.robot.electronics.wired import electronics
+from jumpcad.robot.electronics.thing import electronics
 from jumpcad.workshop import load_workshop
 
 

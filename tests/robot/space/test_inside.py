@@ -9,8 +9,8 @@ from support.each import each
 from jumpcad.mechanism.linkage import Linkage
 from jumpcad.mechanism.model import FOOT, FRONT_LINK, MAIN_LEG
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.inside import LEVER_HEAD_MM, legs_apart_mm, swept_obstacles
 from jumpcad.robot.space.room import EVERYWHERE, Obstacle
-from jumpcad.robot.space.sweep import LEVER_HEAD_MM, legs_apart_mm, link_obstacles, swept_obstacles
 
 NAMES = ["kenan-2.0", "best-bo", LONG_TOES]
 POSITIONS = 60
@@ -25,16 +25,7 @@ SCREW_HEAD_MM = 1.65
 def swept(robot: Robot, gap_mm: float = 0.0) -> dict[str, Obstacle]:
     layout = robot.layout
     assert layout is not None
-    cam = layout.drive.cam
-    obstacles = link_obstacles(
-        Linkage(robot.design),
-        layout.sections,
-        cam.geometry.lever_mm,
-        cam.geometry.lever_start_rad,
-        (-6.0, 10.0),
-        gap_mm,
-        PAST_RAD,
-    )
+    obstacles = swept_obstacles(Linkage(robot.design), layout.sections, layout.drive, layout.lateral, PAST_RAD, gap_mm)
     return {obstacle.name: obstacle for obstacle in obstacles}
 
 
@@ -88,7 +79,6 @@ def test_the_gap_is_added_all_around_and_intervals_are_kept() -> None:
         assert np.array_equal(wider[name].points_mm, obstacle.points_mm)
     half = robot.layout.sections.thickness_mm / 2.0
     assert bare["main leg"].y_mm == bare["front link"].y_mm == (-half, half)
-    assert bare["lever"].y_mm == (-6.0, 10.0)
     assert bare["foot"].y_mm == EVERYWHERE
 
 

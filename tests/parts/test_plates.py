@@ -10,7 +10,7 @@ import trimesh
 from support.built import built
 
 from jumpcad.errors import CannotBuildError
-from jumpcad.printing.plates import _turn, packed
+from jumpcad.parts.plates import _turn, packed
 
 
 @dataclass(frozen=True)

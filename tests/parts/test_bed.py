@@ -7,7 +7,7 @@ import pytest
 
 from jumpcad.design import load_design
 from jumpcad.errors import CannotBuildError
-from jumpcad.printing.bed import fit_to_bed, require_bed
+from jumpcad.parts.part import fit_to_bed, require_bed
 
 BED = (180.0, 120.0, 100.0)
 

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, TypeAlias
 
 import numpy as np
 import rectpack
 
-from jumpcad.printing.bed import require_bed
-from jumpcad.transforms import Array, Trimesh
+from jumpcad.parts.part import Part, Piece, require_bed
+from jumpcad.transforms import Array
 
 STEPS_PER_MM = 100  # packing counts in whole steps, so that it does not depend on rounding
 EDGE_MM = 5.0
@@ -19,29 +19,7 @@ SLENDER, BRIM_MM = 2.0, 2.5
 """Height of a part over the narrower side of its bed face from which it gets a brim, and how wide; judgement. Brims of
 neighbours at the usual spacing just touch."""
 
-
-class Printable(Protocol):
-    """What packing needs to know of a printed part; the mesh is in mm, in printing orientation."""
-
-    @property
-    def name(self) -> str:
-        """Name of the part."""
-
-    @property
-    def material(self) -> str:
-        """Name of the material."""
-
-    @property
-    def quantity(self) -> int:
-        """How many are needed."""
-
-    @property
-    def mesh(self) -> Trimesh:
-        """The mesh."""
-
-    @property
-    def shown_mesh(self) -> Trimesh:
-        """The mesh as detailed as a picture needs."""
+Printable: TypeAlias = Part | Piece
 
 
 def brim_mm(part: Printable) -> float:
