@@ -291,15 +291,10 @@ class PrintedModel(RobotModel):
         if robot is None or errors(statics_findings(robot)):
             return -math.inf
         jump = simulate(robot, load_settings("screening"), self.estimate_engine)
-        if jump.verdict != "jump":
-            return -math.inf
         size = estimated.quick_size_m(design)
         figures = plain_figures(jump)
         figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}
-        try:
-            return objective.score(Evaluation("jump", figures)) or 0.0
-        except JumpcadError:
-            return figures["touchdown_distance_m"]
+        return score_or_touchdown(Evaluation(jump.verdict, figures), objective)
 
     @cached_property
     def estimate_engine(self) -> str:
@@ -316,6 +311,15 @@ class PrintedModel(RobotModel):
     def describe(self) -> dict[str, Any]:
         more = {"stand_in": self.stand_in, "scored": list(self.scored)}
         return super().describe() | {name: value for name, value in more.items() if value}
+
+
+def score_or_touchdown(evaluation: Evaluation, objective: Objective) -> float:
+    """Return what a robot scores, or its touchdown (m) where it lacks a figure for it; -inf where it is rejected."""
+    try:
+        score = objective.score(evaluation)
+    except JumpcadError:
+        score = evaluation.metrics["touchdown_distance_m"]
+    return -math.inf if score is None else score
 
 
 @check_arguments

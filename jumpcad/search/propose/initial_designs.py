@@ -7,12 +7,14 @@ designs with which it jumps far are probably good. The other half covers errors 
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from jumpcad.design import load_design
+from jumpcad.design import load_design, own_workshop
 from jumpcad.files.templates import template_names
 from jumpcad.search.methods import START
+from jumpcad.search.models import PrintedModel, score_or_touchdown
 from jumpcad.search.space import Space, apart
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.request import Stage
@@ -20,6 +22,7 @@ from jumpcad.search.study.trial import Trial, searched
 from jumpcad.search.study.variant import Variant
 from jumpcad.simulation.prior import sobol
 from jumpcad.transforms import Array
+from jumpcad.workshop import load_workshop
 
 SCREENED, BRED, GENERATIONS, CROSSED = 512, 48, 12, 0.8
 """Designs that the quick model ranks, how many of the best are bred, so many times, and the share of coordinates that
@@ -61,8 +64,7 @@ def begun(evaluator: Evaluator) -> list[Trial]:
 def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[Array]:
     """Return points (dimension,) with which the quick robot jumps; none for other robots.
 
-    First the best shipped designs of the space, but in a `cold` search; then, the best first, those that are `bred` of
-    many that are evenly spread.
+    First `shipped_points`; then, the best first, those that are `bred` of many that are evenly spread.
     """
     quick = getattr(evaluator.model, "quick_score", None)
     if quick is None:
@@ -73,18 +75,9 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     def scored(points: Array) -> Array:
         return np.array(evaluator.shared(lambda point: quick(space.to_design(point), objective), [*points]))
 
-    def sorted_by_score(points: Array) -> tuple[Array, Array]:
-        scores = scored(points)
-        order = np.argsort(-scores, kind="stable")
-        return points[order], scores[order]
-
-    names = [] if evaluator.request.cold else template_names("robots")
-    variants = [space.begun(load_design(name), evaluator.model.workshop) for name in names]
-    shipped, theirs = sorted_by_score(
-        np.array([space.to_unit(one) for one in variants if not space.outside(one)]).reshape(-1, space.dimension)
-    )
-    shipped = shipped[np.isfinite(theirs)][:SHIPPED]
-    points, scores = sorted_by_score(points)
+    scores = scored(points)
+    order = np.argsort(-scores, kind="stable")
+    points, scores = points[order], scores[order]
     count = min(BRED, int(np.isfinite(scores).sum()))
     for _ in range(GENERATIONS if count >= 8 else 0):
         children = space.snap(bred(points[:count], generator).round(DIGITS))
@@ -93,7 +86,26 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
         order = better[np.argsort(-their[better], kind="stable")]
         points[:count], scores[:count] = both[order], their[order]
     order = np.argsort(-scores, kind="stable")
-    return [*shipped, *(points[index] for index in order if math.isfinite(scores[index]))]
+    return [*shipped_points(evaluator), *(points[index] for index in order if math.isfinite(scores[index]))]
+
+
+def shipped_points(evaluator: Evaluator) -> list[Array]:
+    """Return points (dimension,) of the best shipped designs of the space, at most `SHIPPED`; none in a cold search.
+
+    They are built in the search's workshop, those with their own one only in that, and score by the planar engine,
+    whatever is required.
+    """
+    space, model, objective = evaluator.space, evaluator.model, evaluator.objective
+    if evaluator.request.cold or not isinstance(model, PrintedModel):
+        return []
+    ours = model.workshop or load_workshop()
+    names = [name for name in template_names("robots") if load_workshop(own_workshop(name)) in (load_workshop(), ours)]
+    variants = [space.begun(load_design(name), ours) for name in names]
+    inside = [one for one in variants if not space.outside(one)]
+    quick = replace(model, engine=model.estimate_engine, requirements=(), scored=())
+    found = evaluator.shared(lambda one: score_or_touchdown(quick(one.design, one.workshop), objective), inside)
+    order = np.argsort(-np.array([*found]), kind="stable")[:SHIPPED]
+    return [space.to_unit(inside[index]) for index in order if math.isfinite(found[index])]
 
 
 def bred(parents: Array, generator: np.random.Generator) -> Array:

@@ -9,13 +9,13 @@ from support.hills import SMALL, TOP, Hill
 
 from jumpcad.design import load_design
 from jumpcad.errors import JumpcadError
-from jumpcad.files.templates import template_names
 from jumpcad.search.estimate.estimated_robot import quick_robot, quick_size_m
 from jumpcad.search.models import robot_model
-from jumpcad.search.propose.initial_designs import APART, SHIPPED, first_points, ranked_points
+from jumpcad.search.propose.initial_designs import APART, first_points, ranked_points, shipped_points
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import find_objective
 from jumpcad.search.study.request import Request
+from jumpcad.workshop import load_workshop
 
 
 class Known(Hill):
@@ -40,27 +40,18 @@ def test_half_of_the_start_is_spread_and_half_the_best_of_the_quick_model(evalua
         assert all(np.abs(point - other).max() >= APART for other in points[12 + number + 1 :])
 
 
-def test_a_search_begins_with_the_best_shipped_designs_of_its_space_unless_it_is_cold():
-    """By a quick model that likes the smallest robot: those of the shipped files with the shortest main legs."""
-
-    class Short(Known):
-        def quick_score(self, design, objective):
-            return -design.carrying_link_mm
-
-    def points(cold: bool) -> list:
-        asked = SimpleNamespace(space=Space.make(), model=Short(), objective=None, request=SimpleNamespace(cold=cold),
-                                shared=lambda score, points: [*map(score, points)])  # fmt: skip
-        return ranked_points(asked, np.random.default_rng(2))
-
-    known, cold, lengths = points(False), points(True), Space.make().free[0]
-    shipped = sorted(
-        design.carrying_link_mm
-        for design in map(load_design, template_names("robots"))
-        if Space.make().contains(design)
-    )
-    begin = [lengths.lower + point[0] * lengths.width for point in known[: len(known) - len(cold)]]
-    assert begin == pytest.approx(shipped[:SHIPPED])
-    assert np.array_equal(known[SHIPPED:], cold)
+def test_a_search_begins_with_the_shipped_designs_that_land_farthest_unless_it_is_cold():
+    """Of those that need no cage: their touchdowns stand in the README, 1,008, 910 and 763 mm."""
+    names, space = ("best-range", "best-upright", "best-printable"), Space.make(workshop=load_workshop())
+    begin, cold = (
+        shipped_points(SimpleNamespace(
+            space=space, model=robot_model(), objective=find_objective("touchdown"),
+            request=SimpleNamespace(cold=cold), shared=lambda score, variants: [*map(score, variants)],
+        ))
+        for cold in (False, True)
+    )  # fmt: skip
+    assert np.array(begin) == pytest.approx(np.array([space.to_unit(load_design(name)) for name in names]))
+    assert cold == []
 
 
 def test_a_cold_search_is_one_of_printed_robots_with_ranked_first_designs() -> None:
