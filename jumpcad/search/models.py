@@ -291,6 +291,8 @@ class PrintedModel(RobotModel):
         if robot is None or errors(statics_findings(robot)):
             return -math.inf
         jump = simulate(robot, load_settings("screening"), self.estimate_engine)
+        if jump.verdict != "jump":
+            return -math.inf
         size = estimated.quick_size_m(design)
         figures = plain_figures(jump)
         figures |= {"size_m": size, "body_lengths": figures["touchdown_distance_m"] / size}

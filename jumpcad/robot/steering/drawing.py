@@ -17,6 +17,7 @@ from jumpcad.parts.purchased import TIE, TIE_G, BoughtPart
 from jumpcad.robot.electronics.leads import lead_lengths
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.steering.limits import steers
 from jumpcad.robot.steering.place import (
     GROOVE_PLAY_MM,
     PLAY_MM,
@@ -154,6 +155,9 @@ def steering_words(robot: Robot) -> dict[str, Any] | None:
         "ring": place.ring.description,
         "shaft_mm": place.motor.shaft_mm,
         "flat_mm": place.motor.shaft_flat_mm,
+        "shaft_length_mm": place.motor.shaft_length_mm,
+        "notch_mm": 2.0 * (place.half_motor_mm[0] - WALL_MM),
+        "lean_deg": steers(robot).lean_deg,
         "wire_mm": max(leads),
         "gap_mm": place.cradle_x_mm[0] - place.half_width_mm,
         "tread_mm": place.ring.section_mm - TREAD_MM,
