@@ -123,7 +123,7 @@ class Radio:
             self.come.append(b"\nstop\n")
             self.advertise()
         elif number == WRITTEN and len(self.come) < KEPT:
-            self.come.append(self.ble.gatts_read(self.written))
+            self.come.append(self.ble.gatts_read(self.written) + b"\n")  # some apps send a line without its end
 
     def byte(self):
         """Take at most one byte."""
