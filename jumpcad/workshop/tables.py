@@ -163,7 +163,8 @@ class CageTable(TomlTable):
     """The cage that rights the robot: two hoops of `rod` (empty: no cage) between cross bars, and a `bow` between both.
 
     What is 0 follows from the height at which the loaded robot crouches. `arc_deg` and `lean_deg` are of the hoops,
-    which lean outwards; `rear_behind_mm` and `front_ahead_mm` are from the plates to the bars.
+    which lean outwards; `rear_behind_mm` and `front_ahead_mm` are from the plates to the bars. The rear horns' tips are
+    wider by `rear_tip_mm`.
     """
 
     rod: OptionalName
@@ -171,6 +172,7 @@ class CageTable(TomlTable):
     lean_deg: Annotated[float, Field(ge=0, le=45)]
     arc_deg: Annotated[float, Field(ge=0, le=310)]
     rear_behind_mm: Annotated[float, Field(ge=0, le=100)]
+    rear_tip_mm: Annotated[float, Field(ge=0, le=20)]
     front_ahead_mm: Annotated[float, Field(ge=0, le=100)]
     rear_radius_mm: Annotated[float, Field(ge=0, le=250)]
     front_radius_mm: Annotated[float, Field(ge=0, le=250)]

@@ -101,6 +101,9 @@ FREE_MM = 3.0
 SHARES = {("rear", "side"): 0.28, ("front", "side"): 0.6, ("front", "ahead"): 0.98, ("rear", "behind"): 0.03}
 """Of the falling energy, by the bar that takes it and the direction, at most; `simulate --landing` says what its own
 landings bring a robot. Above the worst of 200 of `best-jumper`, MuJoCo."""
+FAR_BEHIND = 0.65
+"""The last of these where `cage.rear_behind_mm` puts the rear bar behind the tail: above the worst of 200 landings of
+robots with a wheel."""
 WITHIN_MM = 100.0
 """Larger distances are not measured."""
 MODEL = "a hoop as a ring: Roark, ch. 9, case 1"
@@ -139,8 +142,8 @@ BASIS = {
         "cantilevers: Roark, ch. 8; columns: Roark, table 15.1; share: the worst of 200 simulated landings, judgement",
     ),
     "cage_behind": Basis(
-        f"{SHARES['rear', 'behind']:g}·2·U/3 on the rear bar (J) as in `cage_ahead`, and F²·x/(E·A) of horns pressed; "
-        "they reach to the leg's axle, t = body.plate_mm where the plates begin",
+        f"{SHARES['rear', 'behind']:g}·2·U/3 ({FAR_BEHIND:g} with cage.rear_behind_mm) on the rear bar (J) as in "
+        "`cage_ahead`, and F²·x/(E·A) of horns pressed, w more by cage.rear_tip_mm; they reach to the leg's axle, t = body.plate_mm where the plates begin",
         "as `cage_ahead`",
     ),
     "cage_clear": Basis(
@@ -212,10 +215,11 @@ def _horns(robot: Robot, cage: Cage) -> Iterator[tuple[float, float, float]]:
     """
     layout, body = robot.layout, robot.workshop.material("body")
     plate, end, (high, more) = float(np.ptp(layout.lateral.left_plate)), plate_ends_mm(layout), horn_mm(layout)
-    beside = (HORN_SIZE_MM[0] - BAR_MM) / 2.0 - robot.workshop.fits.drawn.press_mm
-    holds = body.strength_in_plane_mpa * plate * beside**2 / (3.0 * LAP_MM)
+    beside = (HORN_SIZE_MM[0] - BAR_MM) / 2.0 - robot.workshop.fits.drawn.press_mm + np.array([cage.rear_tip_mm, 0.0])
+    held = body.strength_in_plane_mpa * plate * beside**2 / (3.0 * LAP_MM)
     wide = (float(layout.hub_mm[0]) - layout.axle_mm / 2.0 - PAD_WALL_MM, end[1])
-    for bar, axle, ends, clamped in zip(cage.bars, (layout.hub_mm, layout.front_mm), end, wide, strict=True):
+    axles = (layout.hub_mm, layout.front_mm)
+    for bar, axle, ends, clamped, holds in zip(cage.bars, axles, end, wide, held.tolist(), strict=True):
         along = bar.horn_end_mm - axle
         share = abs(float(along @ bar.up)) / math.hypot(*along)
         lengths = (abs(float(bar.place_mm[0]) - ends), abs(float(bar.place_mm[0]) - clamped))
@@ -230,7 +234,8 @@ def fall_findings(robot: Robot, hits_j: Mapping[tuple[str, str], float] | None =
     cage = robot.layout.of(Cage)
     if cage is None:
         return
-    hits = hits_j or {fall: share * FALLS * robot.spring.energy_j for fall, share in SHARES.items()}
+    shares = SHARES | ({("rear", "behind"): FAR_BEHIND} if robot.workshop.cage.rear_behind_mm else {})
+    hits = hits_j or {fall: share * FALLS * robot.spring.energy_j for fall, share in shares.items()}
     folded = FOLD * cage.rod.bending_nmm2 / 1000.0
     horns = zip(("rear", "front"), cage.arcs, _horns(robot, cage), strict=False)
     bears = {name: (folded / arc.radius_mm + sideways, upwards) for name, arc, (_, sideways, upwards) in horns}

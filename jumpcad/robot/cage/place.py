@@ -142,12 +142,14 @@ class CageArc(ByValue):
 class Cage(ByValue):
     """Both bars, the rear one first, and the arcs: two hoops, and the bow if there is one.
 
-    `bar_mm` is the height of the bars, and `socket_mm` the outside of the sockets, which lie on one bed.
+    `bar_mm` is the height of the bars, and `socket_mm` the outside of the sockets, which lie on one bed. The rear
+    horns' tips are wider by `rear_tip_mm`, ahead of their bar.
     """
 
     rod: CageRod
     bar_mm: float
     socket_mm: float
+    rear_tip_mm: float
     bars: tuple[CageBar, CageBar]
     arcs: tuple[CageArc, ...]
 
@@ -200,7 +202,7 @@ def cage_place(layout: Layout, workshop: Workshop) -> Cage | None:
     if table.bow:
         rear, front, bow = _bow(rear, front, lean, level)
         arcs.append(bow)
-    return Cage(rod, table.bar_mm, socket, (rear, front), tuple(arcs))
+    return Cage(rod, table.bar_mm, socket, table.rear_tip_mm, (rear, front), tuple(arcs))
 
 
 def horn_mm(layout: Layout) -> tuple[float, float]:

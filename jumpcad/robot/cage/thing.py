@@ -104,12 +104,13 @@ def horns(layout: Layout, blank: Region | None = None) -> Region:
     if (cage := layout.of(Cage)) is None:
         return union([])
     regions = []
-    axles = (layout.hub_mm, layout.front_mm)
-    for bar, axle, x in zip(cage.bars, axles, plate_ends_mm(layout), strict=True):
+    axles, wider = (layout.hub_mm, layout.front_mm), (cage.rear_tip_mm, 0.0)
+    for bar, axle, x, more in zip(cage.bars, axles, plate_ends_mm(layout), wider, strict=True):
         end, low, (high, _) = bar.horn_end_mm, HORN_MM[0], horn_mm(layout)
         root = axle + (end - axle) * (x - axle[0]) / (end[0] - axle[0])
         strip = hull([disc(high, root), disc(low, end)])
-        tip = _leaning(rectangle(HORN_SIZE_MM, (0.0, -HORN_BELOW_MM), 2.0), bar)
+        size = HORN_SIZE_MM[0] + more, HORN_SIZE_MM[1]
+        tip = _leaning(rectangle(size, (more / 2.0, -HORN_BELOW_MM), 2.0), bar)
         regions += [strip - tip - blank] if blank else [strip, stadium(axle, root, high), tip]
     return union(regions)
 
