@@ -93,9 +93,8 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), nam
         if workshop.bought.spring:
             refusal.ways = for_bought_springs(refusal.ways)
         raise
-    for thing in THINGS:
-        if thing.place is not None:
-            layout = replace(layout, things=(*layout.things, thing.place(layout, workshop)))
+    for place in (thing.place for thing in THINGS if thing.place is not None):
+        layout = replace(layout, things=(*layout.things, place(layout, workshop)))
     return layout
 
 

@@ -94,6 +94,11 @@ class Layout:
         return next((place for place in self.things if isinstance(place, kind)), None)
 
     @property
+    def eye_x_mm(self) -> float:
+        """How far along the foot its front eye is."""
+        return self.design.l4_mm
+
+    @property
     def axles(self) -> dict[str, Array]:
         """The dead axles that cross both plates."""
         axles = {"leg": self.hub_mm, "front": self.front_mm, "cam": self.cam_axis_mm}

@@ -96,9 +96,8 @@ class Check:
 class Thing:
     """A thing on the robot, one folder of `jumpcad.robot`.
 
-    `draw` yields its printed parts and `bought` its bought ones. `checks` are its limits. `place` returns where it is
-    on a machine that has its place already; the layout then has it (`Layout.of`). Where it returns None, the robot goes
-    without, and is asked for none of these.
+    `draw` yields its printed parts, `bought` its bought ones; `checks` are its limits. `place` returns where it is on a
+    machine that has its place (then `Layout.of`), or None: a robot that goes without is asked for none of these.
     """
 
     draw: Callable[[Layout, Workshop], Iterable[Drawing]] = lambda layout, workshop: ()
