@@ -19,7 +19,7 @@ FIVE_BAR = re.compile(r"\b(main_leg|front_link|l[1-5]_mm|five_bar|carrying_link|
 def main() -> None:
     """Print the measures, one a line."""
     argparse.ArgumentParser(description=__doc__).parse_args()
-    modules = {_name(path): path for path in sorted(PACKAGE.rglob("*.py")) if "templates" not in path.parts}
+    modules = modules_in(PACKAGE)
     texts = {name: path.read_text(encoding="utf-8") for name, path in modules.items()}
     print(f"lines {sum(text.count(chr(10)) for text in texts.values())}, modules {len(modules)}")
     print(f"loose modules at the top {sum(name.count('.') == 1 for name in modules if _is_file(modules[name]))}")
@@ -34,9 +34,11 @@ def main() -> None:
     _touched("evaluate of best-printable", lambda: jumpcad.evaluate(design))
 
 
-def _name(path: Path) -> str:
-    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+def modules_in(package: Path) -> dict[str, Path]:
+    """Return a package's modules by name."""
+    paths = [path for path in sorted(package.rglob("*.py")) if "templates" not in path.parts]
+    names = [".".join(path.relative_to(package.parent).with_suffix("").parts) for path in paths]
+    return {name.removesuffix(".__init__"): path for name, path in zip(names, paths, strict=True)}
 
 
 def _is_file(path: Path) -> bool:
@@ -45,7 +47,7 @@ def _is_file(path: Path) -> bool:
 
 def _circles(texts: dict[str, str]) -> list[list[str]]:
     """Return circles of imports, types included, each taken away at one arrow to find the next."""
-    graph = {name: _imports(name, text, texts) for name, text in texts.items()}
+    graph = {name: imports(name, text, texts) for name, text in texts.items()}
     found: list[list[str]] = []
     while True:
         try:
@@ -57,23 +59,23 @@ def _circles(texts: dict[str, str]) -> list[list[str]]:
             return found
 
 
-def _imports(name: str, text: str, known: dict[str, str]) -> set[str]:
+def imports(name: str, text: str, known: dict[str, str]) -> set[str]:
+    """Return the known modules that a module's text imports, anywhere in it."""
     nodes = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ImportFrom) and node.module]
     names = {f"{node.module}.{one.name}": node.module or "" for node in nodes for one in node.names}
     return {full if full in known else module for full, module in names.items()} & known.keys() - {name}
 
 
 def _touched(what: str, run: Callable[[], object]) -> None:
-    """Print how many files of the package a run goes through, once it has run, and calls from one into another."""
-    run()
-    profile = cProfile.Profile()
-    profile.runcall(run)
-    stats = pstats.Stats(profile).stats  # type: ignore[attr-defined]
-    ours = {key for key in stats if key[0].startswith(str(PACKAGE))}
-    across = sum(
-        count[0] for key in ours for caller, count in stats[key][4].items() if caller in ours and caller[0] != key[0]
-    )
-    print(f"{what}: {len({key[0] for key in ours})} files, {across} calls from one into another")
+    """Print how many files a run goes through, at first and once more, and calls from one of them into another."""
+    for when in ("first", "again"):
+        profile = cProfile.Profile()
+        profile.runcall(run)
+        stats = pstats.Stats(profile).stats  # type: ignore[attr-defined]
+        ours = {key for key in stats if key[0].startswith(str(PACKAGE)) and key[2] != "<module>"}
+        callers = {key: {one: count for one, count in stats[key][4].items() if one in ours} for key in ours}
+        across = sum(count[0] for key in ours for one, count in callers[key].items() if one[0] != key[0])
+        print(f"{what}, {when}: {len({key[0] for key in ours})} files, {across} calls from one into another")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The eight numbers of a jumping robot, and what follows from them alone.
+"""The eight numbers of a jumping robot, what follows from them alone, and the workshop that a template brings.
 
 Symbols are those of the published study: the body carries the main leg (link a, length l2) at the back and the front
 link (link c, l3) at the front; foot link d (l4) joins their ends; two toes (link e, l5) reach backwards from the

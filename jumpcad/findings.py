@@ -1,4 +1,4 @@
-"""Checked limits as data: one list of findings serves the command line, the search and the report."""
+"""Checked limits and their remedies as data, and the words of a remedy: for command line, search and report."""
 
 import math
 from collections.abc import Iterable

@@ -1,4 +1,4 @@
-"""Settings of a simulation: time step, friction, damping, and what is recorded."""
+"""Settings of a simulation: time step, damping, what is recorded; the friction of contacts from floor and surface."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -22,7 +22,7 @@ from jumpcad.robot.leg.drawing import main_leg
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.sensor.place import SensorNeeds
 from jumpcad.robot.springs.place import PLATE_PINS_RAD, NoPinRoomError
-from jumpcad.robot.things import THINGS
+from jumpcad.robot.things import THINGS, things_on
 from jumpcad.strength.axles import pin_head_mm
 from jumpcad.strength.growth import Growth, grown_mm
 from jumpcad.strength.loads import StopBlow, stop_blow
@@ -46,7 +46,7 @@ def assembled(design: Design, workshop: Workshop, name: str, growth: Growth, bef
         kept = before.parts[len(drawn) :]
     else:
         drawn = drawings(layout, workshop)
-        hardware = tuple(item for thing in THINGS for item in thing.bought(layout, workshop))
+        hardware = tuple(item for thing in things_on(layout) for item in thing.bought(layout, workshop))
         require_parts(workshop.mass.weighed_g, [drawing.name for drawing in drawn])
     for drawing in drawn:
         drawing.require_bed(workshop.printer.bed_mm, layout.of(Cage) is not None)
@@ -93,9 +93,8 @@ def layout_of(design: Design, workshop: Workshop, growth: Growth = Growth(), nam
         if workshop.bought.spring:
             refusal.ways = for_bought_springs(refusal.ways)
         raise
-    for thing in THINGS:
-        if (place := thing.place(layout, workshop)) is not None:
-            layout = replace(layout, things=(*layout.things, place))
+    for place in (thing.place for thing in THINGS if thing.place is not None):
+        layout = replace(layout, things=(*layout.things, place(layout, workshop)))
     return layout
 
 
@@ -150,4 +149,4 @@ def _sensor_needs(workshop: Workshop, chosen: Chosen, drive: Drive) -> SensorNee
 
 def drawings(layout: Layout, workshop: Workshop) -> list[Drawing]:
     """Return every printed part of a layout, those of the main leg first."""
-    return [drawing for thing in THINGS for drawing in thing.draw(layout, workshop)]
+    return [drawing for thing in things_on(layout) for drawing in thing.draw(layout, workshop)]

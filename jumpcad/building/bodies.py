@@ -74,7 +74,7 @@ def _contacts(layout: Layout) -> dict[str, tuple[ContactSphere, ...]]:
     pad = layout.axle_mm / 2.0 + PAD_WALL_MM
     return {
         FOOT: (
-            sphere("front_eye", layout.design.l4_mm, 0.0, 0.0, sections.ground_mm, "foot"),
+            sphere("front_eye", layout.eye_x_mm, 0.0, 0.0, sections.ground_mm, "foot"),
             sphere("left_toe", tip_x, tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
             sphere("right_toe", tip_x, -tip_y, tip_z, tip_radius + sections.pad_mm, "foot"),
         ),

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from jumpcad.catalogue.prices import ESTIMATE, shipped_prices
+from jumpcad.catalogue.articles import ESTIMATE, shipped_prices
 from jumpcad.dimensions import counted
 from jumpcad.errors import JumpcadError
 from jumpcad.files import did_you_mean

@@ -1,4 +1,4 @@
-"""Writes a bundle's folder: whole or not at all, and never over a user's file.
+"""Writes or replaces a bundle's folder: whole or not at all, and never over a user's file.
 
 Files with the manifest's sha256 are jumpcad's and are replaced. All others belong to the user and stay; if one cannot,
 `JumpcadError` is raised before anything is written.

@@ -16,7 +16,7 @@ from jumpcad.findings import Basis, Finding
 from jumpcad.mechanism import feasibility
 from jumpcad.mechanism.model import Mechanism
 from jumpcad.robot.robot import Check, Robot
-from jumpcad.robot.things import THINGS
+from jumpcad.robot.things import THINGS, things_on
 
 __all__ = [
     "CHECKS", "SYMBOLS", "Check", "basis_of", "check", "constraint_findings", "costly_findings", "quick_findings",
@@ -75,8 +75,11 @@ def basis_of(name: str) -> Basis | None:
 
 
 def _findings(robot: Mechanism, checks: Iterable[Check]) -> list[Finding]:
-    """Return the findings of those checks whose needs the robot meets."""
-    findings = [one for check in checks if isinstance(robot, check.needs) for one in check.find(robot)]
+    """Return the findings of those checks whose needs the robot meets, and whose thing it has."""
+    there = things_on(robot.layout) if isinstance(robot, Robot) else THINGS
+    without = [check.basis for thing in THINGS if thing not in there for check in thing.checks]
+    ours = (check for check in checks if isinstance(robot, check.needs) and check.basis not in without)
+    findings = [one for check in ours for one in check.find(robot)]
     if isinstance(robot, Robot) and robot.workshop.bought.spring:
         return [replace(found, ways=for_bought_springs(found.ways)) for found in findings]
     return findings

@@ -93,7 +93,7 @@ def check(
     from jumpcad.building.bom import bill_of_materials
     from jumpcad.bundle.limits import counted_limits, limits_of, ordered, violation, with_verdict
     from jumpcad.checks import CHECKS, basis_of
-    from jumpcad.remedies import Remedies, next_steps, steps_in_words
+    from jumpcad.remedy_numbers import Remedies, next_steps, steps_in_words
 
     subjects.note_template(design)
     if explain and basis_of(explain) is None:

@@ -68,7 +68,7 @@ def _robot_page(
     from jumpcad.bundle.export import report_page
     from jumpcad.bundle.limits import limits_of
     from jumpcad.files.outputs import require_apart, require_target, write_atomically
-    from jumpcad.remedies import next_steps, steps_in_words
+    from jumpcad.remedy_numbers import next_steps, steps_in_words
 
     require_apart({"--output": output}, {"the design": subject, "--workshop": workshop})
     subjects.note_template(subject)

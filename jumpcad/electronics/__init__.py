@@ -1,1 +1,1 @@
-"""The robot's electricity: parts that a workshop chose, their voltages, their net list and its drawing."""
+"""The robot's electricity: parts that a workshop chose, their voltages, the net list with the controller's pins."""

@@ -1,1 +1,1 @@
-"""Printing: fit to the bed, print plates, layers and their mass, and the slicer."""
+"""Printing: layers and their mass, and the slicer."""

@@ -49,9 +49,9 @@ class Layout:
     and drive. `toes_apart` says whether the foot is too large for the bed with its toes, so that they are
     separate parts. `toe_half_width_mm` is how far from the middle the toes touch the ground: at their tips, or at the
     ends of bars across them. `leg_bar` is what main leg and front link are made of between printed ends, if anything.
-    `cap_ear_mm` is how far the ears for the motor cap's screws reach beyond the socket,
-    `things` are the places of what has found room on this machine (`jumpcad.robot.things`), `label` is engraved.
-    `spring_boss_mm` the height of the boss for the springs' pin inside the right plate; 0 without.
+    `cap_ear_mm` is how far the ears for the motor cap's screws reach beyond the socket, `spring_boss_mm` the height of
+    the boss for the springs' pin inside the right plate; 0 without. `things` are the places of what has looked for one
+    on this machine (`jumpcad.robot.things`), None of what the robot goes without. `label` is engraved.
     """
 
     linkage: Linkage
@@ -92,6 +92,11 @@ class Layout:
     def of(self, kind: type[Placed]) -> Placed | None:
         """Return the place of a thing, by its type; None where the robot goes without."""
         return next((place for place in self.things if isinstance(place, kind)), None)
+
+    @property
+    def eye_x_mm(self) -> float:
+        """How far along the foot its front eye is."""
+        return self.design.l4_mm
 
     @property
     def axles(self) -> dict[str, Array]:

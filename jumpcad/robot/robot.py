@@ -35,8 +35,7 @@ class Robot(Mechanism):
 
     `parts` are printed, `hardware` is bought, `layout` says where everything goes, and `workshop` what it is made with;
     `release` is the release of its springs by the cam, `stop_blow` the impact of its leg on the rest stop; `grown` says
-    what is stronger than its first sizing. Two robots
-    are equal where name, design, workshop and mechanism are, with the masses and inertias of all bodies.
+    what is stronger than first sized. Robots are equal where name, design, workshop, mechanism and bodies' masses are.
     """
 
     parts: tuple[Part, ...] = field(compare=False)
@@ -97,14 +96,14 @@ class Check:
 class Thing:
     """A thing on the robot, one folder of `jumpcad.robot`.
 
-    `draw` yields its printed parts and `bought` its bought ones. `checks` are its limits. `place` returns where it is
-    on a machine that has its place already, or None where a robot goes without; the layout then has it (`Layout.of`).
+    `draw` yields its printed parts, `bought` its bought ones; `checks` are its limits. `place` returns where it is on a
+    machine that has its place (then `Layout.of`), or None: a robot that goes without is asked for none of these.
     """
 
     draw: Callable[[Layout, Workshop], Iterable[Drawing]] = lambda layout, workshop: ()
     bought: Callable[[Layout, Workshop], Iterable[BoughtPart]] = lambda layout, workshop: ()
     checks: tuple[Check, ...] = ()
-    place: Callable[[Layout, Workshop], object | None] = lambda layout, workshop: None
+    place: Callable[[Layout, Workshop], object | None] | None = None
 
 
 def decided_once(decide: Callable[[Robot], T]) -> Callable[[Robot], T]:

@@ -1,1 +1,1 @@
-"""Pictures of a robot: placed meshes with colours, cameras, shading, the renderer, the assembly steps."""
+"""Pictures of a robot: placed meshes with colours, cameras, shading, the renderer."""

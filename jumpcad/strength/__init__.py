@@ -1,1 +1,1 @@
-"""Loads, stresses, fatigue, section sizes and bearings of the parts that move."""
+"""Loads, stresses, fatigue, bearings of the parts that move; factors by which their sections grow."""

@@ -68,12 +68,12 @@ def axles_and_pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
 
 
 def _pins(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart]:
-    """Yield the pins of ankle, front eye and springs' inner arms, with their retention."""
-    ankle, lug = layout.ankle_face_mm, layout.lateral.lug_left[1]
+    """Yield the pins at the foot's two ends and of the springs' inner arms, with their retention."""
+    foot, lug = layout.ankle_face_mm, layout.lateral.lug_left[1]
     arm = layout.lateral.leg[1] + GAP_MM + 2.0 * layout.drive.spring.wire_mm
     places = (
-        Place("ankle_pin", FOOT, np.zeros(2), (-ankle, ankle)),
-        Place("front_eye_pin", FOOT, np.array([layout.design.l4_mm, 0.0]), (-lug, lug)),
+        Place("ankle_pin", FOOT, np.zeros(2), (-foot, foot)),
+        Place("front_eye_pin", FOOT, np.array([layout.eye_x_mm, 0.0]), (-lug, lug)),
         Place("leg_spring_pin", MAIN_LEG, np.array([layout.leg_pin_mm, 0.0]), (-arm, arm), np.pi / 2.0),  # across it
     )
     catalogue = workshop.catalogue

@@ -66,7 +66,7 @@ def _nose_pads(layout: Layout, pad: Pad) -> Iterator[BoughtPart]:
     length = region.area() / pad.thickness_mm
     for side, sign in (("left", 1.0), ("right", -1.0)):
         y = sorted((sign * inner, sign * (inner + lug)))
-        at = (layout.design.l4_mm, 0.0, 0.0)
+        at = (layout.eye_x_mm, 0.0, 0.0)
         yield _pad(f"nose_pad_{side}", pad, FOOT, [(y[0], y[1], region)], (lug, length), at)
 
 

@@ -19,7 +19,7 @@ PRESENTATION = (
     "api.", "bundle/", "calibration/", "cli/", "comparison.", "coupon/", "environment.", "exporters/dxf.",
     "exporters/glb.", "exporters/registry.", "exporters/ros2.", "exporters/sdf.", "exporters/step.",
     "exporters/stl.", "exporters/threemf.", "exporters/urdf.", "landing/series.", "notebook.", "parts/plates.",
-    "printing/prusaslicer.", "remedies.", "scene/labels.", "scene/raster.", "scene/renderer.",
+    "printing/prusaslicer.", "remedy_numbers.", "scene/labels.", "scene/raster.", "scene/renderer.",
     "search/report/", "steps/step_", "studio/", "templates/", "validation/",
 )  # fmt: skip
 """Modules and packages that do not affect the trials of a study; templates lie in an installed package alone."""

@@ -1,4 +1,4 @@
-"""The study file: one SQLite file in which every trial is a row.
+"""The study file: one SQLite file in which every trial is a row, whose columns are of `record`.
 
 A batch of trials is one transaction in write-ahead mode: the file stays valid if the writer is killed, and others may
 read it meanwhile. Rows are identified by where the search proposed them (phase, run, step, place in the step), so the

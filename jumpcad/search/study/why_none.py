@@ -74,7 +74,7 @@ def _causes(trial: Trial) -> list[tuple[str, str]]:
 
 def _told(name: str, trial: Trial, model: RobotModel) -> tuple[str, Remedy]:
     """Return what a design's refusal says, and its remedy, with a number where one is found for a printed robot."""
-    from jumpcad.remedies import Remedies
+    from jumpcad.remedy_numbers import Remedies
 
     evaluation = trial.evaluation
     if evaluation.detail and evaluation.verdict != CANNOT_BUILD:  # it may have ended its worker

@@ -12,7 +12,7 @@ from jumpcad.catalogue import load_catalogue
 from jumpcad.checks import check, quick_findings
 from jumpcad.checks.springs_loaded import righting_findings
 from jumpcad.findings import Finding
-from jumpcad.remedies import Remedies
+from jumpcad.remedy_numbers import Remedies
 from jumpcad.robot.cage.limits import bar_mpa, bent_strain, landing_n, landing_strain, ring_n_per_mm, two_horns
 from jumpcad.robot.robot import Robot
 from jumpcad.workshop import load_workshop, varied

@@ -8,12 +8,12 @@ import pytest
 from support.built import built
 
 import jumpcad
-from jumpcad import remedies
+from jumpcad import remedy_numbers
 from jumpcad.design import Design
 from jumpcad.errors import CannotBuildError
 from jumpcad.evaluation import EvaluationResult, evaluate
 from jumpcad.findings import Finding, at_most, limit, lower
-from jumpcad.remedies import ALL, TRIES, Remedies, next_steps
+from jumpcad.remedy_numbers import ALL, TRIES, Remedies, next_steps
 from jumpcad.simulation import simulate
 from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
@@ -30,7 +30,7 @@ def tried(monkeypatch: pytest.MonkeyPatch) -> list[Design]:
         designs.append(design)
         return evaluate(design, *more, **named)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(remedies, "evaluate", counted)
+    monkeypatch.setattr(remedy_numbers, "evaluate", counted)
     return designs
 
 
@@ -86,7 +86,7 @@ def test_shadow_prices_of_a_linear_problem(monkeypatch: pytest.MonkeyPatch) -> N
     Within its limits it gains the 4 and 2 mm that are left of both. d goes with a: alone neither is worth anything.
     """
     robot = built("kenan-2.0")
-    start, here = np.array(robot.design.to_vector()), remedies._way_m(robot)
+    start, here = np.array(robot.design.to_vector()), remedy_numbers._way_m(robot)
     slopes = np.zeros((4, 8))
     slopes[0, 4], slopes[1, 6], slopes[2, 0], slopes[3, 4] = 2.0, 2.0, 1.0, 2.0
     uses = np.array([0.99, 0.98, 0.97, 0.91])
@@ -98,7 +98,7 @@ def test_shadow_prices_of_a_linear_problem(monkeypatch: pytest.MonkeyPatch) -> N
     def near(*used: float) -> list[Finding]:
         return [at_most(name, use, 1.0, "", "", "") for name, use in zip("dcba", used[::-1], strict=True)]
 
-    monkeypatch.setattr(remedies, "_figures", figures)
+    monkeypatch.setattr(remedy_numbers, "_figures", figures)
     (both, first, second, gram), within_mm = next_steps(robot, near(*uses))
     assert (both.limit, first.limit, first.number, second.limit) == (ALL, "a", "compression_ratio", "b")
     assert (both.gain_mm, first.gain_mm, second.gain_mm, within_mm) == pytest.approx((25.0, 20.0, 5.0, 6.0), rel=1e-6)

@@ -1,4 +1,4 @@
-"""Remedies with numbers: what cures a limit that fails, found by trying; what a step beyond a limit would give."""
+"""Numbers for remedies, found by trying; what a step beyond a limit would give. Words of remedies: `findings`."""
 
 import math
 from collections.abc import Sequence
