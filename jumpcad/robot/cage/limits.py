@@ -143,7 +143,8 @@ BASIS = {
     ),
     "cage_behind": Basis(
         f"{SHARES['rear', 'behind']:g}·2·U/3 ({FAR_BEHIND:g} with cage.rear_behind_mm) on the rear bar (J) as in "
-        "`cage_ahead`, and F²·x/(E·A) of horns pressed, w more by cage.rear_tip_mm; they reach to the leg's axle, t = body.plate_mm where the plates begin",
+        "`cage_ahead`, and F²·x/(E·A) of horns pressed, w more by cage.rear_tip_mm; they reach to the leg's axle, t = "
+        "body.plate_mm where the plates begin",
         "as `cage_ahead`",
     ),
     "cage_clear": Basis(
