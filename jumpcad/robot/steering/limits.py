@@ -32,8 +32,8 @@ still until then. Leg angles at which that is looked at."""
 WIDE_MM = TAB_MM + 2.0 * SLOT_EDGE_MM
 """Width of the mount's base and of the plates' tails."""
 SHARE = 0.3
-"""Of the falling energy, that a blow on the wheel brings; judgement: none of 460 simulated landings of robots whose cage
-reaches behind the wheel touched it."""
+"""Of the falling energy, that a blow on the wheel brings; judgement: none of 460 simulated landings of robots with a
+cage that reaches behind the wheel touched it."""
 BASIS = {
     "steering_touch": Basis(
         f"dip - miss ≥ {LEAST_MM:g} mm; dip of the wheel's rim below the feet's plane, springs loaded; miss = rise of "
