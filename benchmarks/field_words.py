@@ -138,6 +138,7 @@ WORDS = {
     "lean_deg": "of the hoops, outwards",
     "arc_deg": "of a hoop, from bar to bar",
     "rear_behind_mm": "from the plates to the rear bar",
+    "rear_tip_mm": "how much wider the rear horns' tips are than the others",
     "front_ahead_mm": "from the plates to the front bar",
     "rear_radius_mm": "of the rear hoop",
     "front_radius_mm": "of the front hoop",
