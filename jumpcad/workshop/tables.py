@@ -183,7 +183,8 @@ class SteeringTable(TomlTable):
     """The wheel under the tail that turns the robot while it crouches: a printed one with an `o-ring`, or "none".
 
     What is 0 is found: the wheel's radius with its ring, how far below the feet's plane it reaches in the loaded pose
-    (`dip_mm`), and how far it is behind the leg's axle, along the ground. `base_mm` is the thickness of its mount.
+    (`dip_mm`), and how far it is behind the leg's axle, along the ground. It stands `aside_mm` to the right of the
+    plates' middle, so that the toe to the left bears more. `base_mm` is the thickness of its mount.
     `gyroscope` is the board that measures its turns, a carrier of the LSM6DSO; without one they go by time.
     """
 
@@ -192,6 +193,7 @@ class SteeringTable(TomlTable):
     radius_mm: Annotated[float, Field(ge=0, le=30)]
     dip_mm: Annotated[float, Field(ge=0, le=10)]
     behind_mm: Annotated[float, Field(ge=0, le=120)]
+    aside_mm: Annotated[float, Field(ge=0, le=15)]
     base_mm: Annotated[float, Field(ge=1, le=8)]
     gyroscope: OptionalName = ""
 

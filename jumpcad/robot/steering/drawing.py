@@ -92,7 +92,8 @@ def _mount(place: Steering, layout: Layout, holes: HoleSizes) -> Stack:
     slots = [rectangle(TIE_SLOT_MM[::-1], (x, side * (beside + TIE_SLOT_MM[0] / 2.0))) for side in (-1.0, 1.0)]
     (low, high), (right, left) = layout.lateral.inside, layout.lateral.outside
     play = holes.fits.sliding_mm
-    bridge = rectangle((TAB_MM + 2.0 * SLOT_EDGE_MM, high - low - 2.0 * play), (x, 0.0), 1.0)
+    size = TAB_MM + 2.0 * SLOT_EDGE_MM, high - low - 2.0 * play
+    bridge = rectangle(size, (x, middle - (low + high) / 2.0), 1.0)
     tabs = rectangle((TAB_MM, left - right), (x, middle - (left + right) / 2.0))
     around = rectangle((end - begin, 2.0 * beside), (x, 0.0))
     base = union([bridge, tabs, around]) - union(slots)

@@ -164,7 +164,7 @@ def steering_place(layout: Layout, workshop: Workshop) -> Steering | None:
         dip = table.dip_mm or math.ceil(10.0 * (miss + LEAST_MM)) / 10.0
         radius = table.radius_mm or max(RADIUS_MM, math.ceil(dip + half + FREE_MM))
         frame = pose_about_y(foot, ground + (radius - dip) * up)
-        frame[1, 3] = sum(layout.lateral.inside) / 2.0
+        frame[1, 3] = sum(layout.lateral.inside) / 2.0 - table.aside_mm
         lever = float((pose.front_eye_mm[0] - ground) @ along)
         place = Steering(motor, _ring(workshop, radius), frame, radius, dip, miss, behind, lever, table.base_mm)
         beyond = toes + behind - place.half_width_mm
