@@ -45,8 +45,9 @@ BASIS = {
         f"geometry; Shigley, table A-9; limit: simulated, at {LEAST_MM:g} mm a soft floor begins to let it slip",
     ),
     "steering_stands": Basis(
-        f"share of the weight on the toe to which the robot leans ≥ {STANDS:g} %, by dip·(eye to toe)/(eye to wheel)/(half width "
-        "of the toes); its other supports are that edge of the nose and the wheel, which rolls below its axle",
+        f"share of the weight on the toe to which the robot leans ≥ {STANDS:g} %, by dip·(eye to toe)/(eye to wheel)/"
+        "(half width of the toes); its other supports are that edge of the nose and the wheel, which rolls below its "
+        "axle",
         "statics of three supports; limit: simulated turns",
     ),
     "steering_lean": Basis(
@@ -178,7 +179,7 @@ def steering_findings(robot: Robot) -> Iterator[Finding]:
     yield at_least(
         "steering_stands", float(shares[2]), STANDS, "%",
         f"on its wheel it leans by {found.lean_deg:.1f}°; nose, wheel and toe bear {shares[0]:.0f}, {shares[1]:.0f} "
-        f"and {shares[2]:.1f} % of the weight; {STANDS:g} % on the toe are needed: with less it rocks as it turns right",
+        f"and {shares[2]:.1f} % of the weight; {STANDS:g} % on the toe are needed: else it rocks as it turns right",
         higher("steering.aside_mm", "steering.dip_mm"), "warning",
     )  # fmt: skip
     yield at_most(
