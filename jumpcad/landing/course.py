@@ -204,7 +204,7 @@ def _trip(
     arena: Arena, points: Sequence[Array], course: Course, rng: np.random.Generator, recorder: Recorder,
     noise_deg: float, step_m: float,
 ) -> Trip:  # fmt: skip
-    """Go once, in jumps that are first taken to be `step_m` long, then as long as they were."""
+    """Go once, in jumps that are first taken to be straight and `step_m` long, then as they were on the way."""
     turn_j, train = steers(arena.robot).figures["turn_energy_j"] / TURN_DEG, arena.robot.layout.drive.train
     struck: set[int] = set()
 
@@ -215,7 +215,7 @@ def _trip(
     arena.stand("home")
     origin = arena.centre_of_mass_m[:2]
     arena.watch = watch if course.obstacles or recorder.on else None
-    moves, ways = list[Move](), [step_m]
+    moves, ways, veers_deg, faced_rad = list[Move](), [step_m], [0.0], 0.0
     most = PATIENCE * math.ceil(course.way_m / step_m) + LEAST_TRIES
 
     def left_m(number: int) -> float:
@@ -232,20 +232,25 @@ def _trip(
         point, turn_deg = points[reached] + origin, 0.0
 
         def turn(point: Array = point) -> None:
-            nonlocal turn_deg
+            nonlocal turn_deg, faced_rad
+            faced_rad = arena.heading_rad
             if not arena.stands:
                 return
             before, length = arena.heading_rad, float(np.mean(ways))
             seen = before + math.radians(rng.normal(0.0, noise_deg))
             way = point - arena.centre_of_mass_m[:2]
-            wanted = math.degrees(math.atan2(way[1], way[0]) - seen)
+            wanted = math.degrees(math.atan2(way[1], way[0]) - seen) - float(np.median(veers_deg))
             wanted = _within_half_turn(wanted + _aside_deg(float(np.linalg.norm(way)), length, course.within_m))
             if abs(wanted) > STRAIGHT_DEG:
                 arena.steer(wanted, lambda: recorder("turning"))
-                turn_deg = _within_half_turn(math.degrees(arena.heading_rad - before))
+                faced_rad = arena.heading_rad
+                turn_deg = _within_half_turn(math.degrees(faced_rad - before))
 
         struck.clear()
+        begun_m = arena.centre_of_mass_m[:2]
         done = hop(arena, rng, recorder, turn)
+        way_x, way_y = arena.centre_of_mass_m[:2] - begun_m
+        veers_deg.append(_within_half_turn(math.degrees(math.atan2(way_y, way_x) - faced_rad)))
         ways.append(done.way_m)
         x, y = (arena.centre_of_mass_m[:2] - origin).tolist()
         hit = tuple(sorted(one + 1 for one in struck))
