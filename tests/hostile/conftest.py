@@ -26,9 +26,7 @@ from support.slicers import OBEDIENT
 from jumpcad.bundle import export, renders
 from jumpcad.bundle import export as bundle_export
 from jumpcad.coupon import contents as coupon_contents
-from jumpcad.parts.part import Piece
 from jumpcad.simulation.engines import engine_named
-from jumpcad.workshop import Workshop
 
 ENGINES = tuple(name for name in ("pybullet", "mujoco") if importlib.util.find_spec(name))
 MEMORY = "/dev/shm"
@@ -79,14 +77,12 @@ def remembered() -> Iterator[dict[object, Any]]:
     """
     made: dict[object, Any] = {}
 
-    def mass_key(piece: Piece, workshop: Workshop) -> object:
-        return piece.name, workshop.to_toml()
-
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(bundle_export, "contents", once(made, bundle_export.contents, robot_key))
         files = once(made, coupon_contents.coupon_files, lambda shop, _, *pictures: (shop.to_toml(), pictures))
         patch.setattr(export, "coupon_files", files)
-        patch.setattr(coupon_contents, "_mass_kg", once(made, coupon_contents._mass_kg, mass_key))
+        masses = once(made, coupon_contents.coupon_masses, lambda _, shop: shop.to_toml())
+        patch.setattr(export, "coupon_masses", masses)
         patch.setattr(renders, "renders", once(made, renders.renders, robot_key))
         patch.setattr(renders, "jump_gif", once(made, renders.jump_gif, lambda robot, *_: robot_key(robot)))
         yield made
