@@ -25,6 +25,15 @@ def found(robot: Robot) -> dict[str, Finding]:
     return {one.name: one for one in quick_findings(robot) if one.name.startswith("cage")}
 
 
+@pytest.mark.thorough
+def test_what_bears_a_fall_on_the_tail_grows_with_the_fourth_power_of_the_width_beside_the_notch() -> None:
+    """It holds F = σ·p·w²/(3·l), a beam's end; horns are springs, which take F². The tip is 10.6 mm wide, the bar 3."""
+    shops = [varied(load_workshop("best-jumper"), {"cage.rear_tip_mm": wider}) for wider in (0.0, 1.0)]
+    plain, wide = (found(jumpcad.build("best-jumper", workshop=shop))["cage_behind"].limit for shop in shops)
+    beside = (10.6 - 3.0) / 2.0 - shops[0].fits.drawn.press_mm
+    assert wide / plain == pytest.approx(((beside + 1.0) / beside) ** 4, rel=1e-3)
+
+
 def test_a_hoop_is_a_ring_between_two_forces() -> None:
     """Half of a ring summed up: M = F·R·(1/π - cos(t)/2) from the load, and the work of F is the energy of bending."""
     radius, force = 95.0, 3.0

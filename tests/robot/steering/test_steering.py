@@ -101,22 +101,27 @@ def test_the_wheel_turns_the_robot_on_four_floors_as_geometry_says(name: str, ri
 
 @pytest.mark.thorough
 def test_supports_bear_what_simulated_contacts_bear() -> None:
+    """The wheel in the middle, and aside, where the toe bears more."""
     needs.package("mujoco")
-    robot = steered()
-    arena = Arena(robot)
-    arena.stand_on(Floor())
-    arena.stand()
-    arena.step(5.0)
-    found = dict.fromkeys(("eye", "rim", "toe"), 0.0)
-    for _ in range(2000):
-        arena.step(0.0)
-        for number, contact in enumerate(arena.data.contact[: arena.data.ncon]):
-            force, name = np.zeros(6), arena.model.geom(int(contact.geom.max())).name
-            arena._mujoco.mj_contactForce(arena.model, arena.data, number, force)
-            found[next((part for part in ("rim", "toe") if part in name), "eye")] += float(force[0]) / 2000.0
-    loads = steers(robot).loads_n
-    assert loads.sum() == pytest.approx(robot.mass_kg * GRAVITY_M_S2)
-    assert list(found.values()) == pytest.approx(loads.tolist(), abs=0.05 * loads.sum())
+    toes = []
+    for aside_mm in (0.0, 5.0):
+        robot = steered(aside_mm=aside_mm)
+        arena = Arena(robot)
+        arena.stand_on(Floor())
+        arena.stand()
+        arena.step(5.0)
+        found = dict.fromkeys(("eye", "rim", "toe"), 0.0)
+        for _ in range(2000):
+            arena.step(0.0)
+            for number, contact in enumerate(arena.data.contact[: arena.data.ncon]):
+                force, name = np.zeros(6), arena.model.geom(int(contact.geom.max())).name
+                arena._mujoco.mj_contactForce(arena.model, arena.data, number, force)
+                found[next((part for part in ("rim", "toe") if part in name), "eye")] += float(force[0]) / 2000.0
+        loads = steers(robot).loads_n
+        assert loads.sum() == pytest.approx(robot.mass_kg * GRAVITY_M_S2)
+        assert list(found.values()) == pytest.approx(loads.tolist(), abs=0.05 * loads.sum())
+        toes.append(found["toe"])
+    assert toes[1] - toes[0] > 0.1
 
 
 @pytest.mark.thorough
