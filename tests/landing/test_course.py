@@ -1,7 +1,9 @@
 """To points and along courses: geometry of the way, the turn of a wheel, and who is refused."""
 
 import math
+from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +12,11 @@ from support.commands import exit_code_of
 import jumpcad
 from jumpcad.cli import going
 from jumpcad.errors import JumpcadError
+from jumpcad.landing import course
 from jumpcad.landing.arena import Arena, Floor
 from jumpcad.landing.course import Course, _aside_deg
 from jumpcad.landing.obstacles import Obstacle
+from jumpcad.landing.series import Hop
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.steering.limits import steers
 from jumpcad.settings import Settings
@@ -47,6 +51,29 @@ def test_the_wheel_turns_it_by_the_angle_on_firm_floors_and_either_way(robot: Ro
         share = math.degrees(arena.heading_rad - before) / angle  # to the right it rocks from toe to toe
         assert (0.9 if angle > 0.0 else 0.8) < share < 1.05, floor
         assert arena.stands
+
+
+def test_who_jumps_aside_aims_beside_the_point_from_the_third_jump_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A point that jumps 0.5 m, 20° to the left of where it looks."""
+    robot = SimpleNamespace(layout=SimpleNamespace(drive=SimpleNamespace(train=SimpleNamespace(electrical_j=0.0))))
+    at = SimpleNamespace(centre_of_mass_m=np.zeros(3), heading_rad=0.0, stands=True, robot=robot)
+    at.stand = lambda _pose: None
+    at.steer = lambda angle_deg, _watch: vars(at).update(heading_rad=at.heading_rad + math.radians(angle_deg))
+    aside_deg = []
+
+    def jump(_arena: object, _rng: object, _recorder: object, turn: Callable[[], None]) -> Hop:
+        turn()
+        jumps, way = at.heading_rad + math.radians(20.0), np.array([4.0, 0.0]) - at.centre_of_mass_m[:2]
+        aside_deg.append(math.degrees(jumps - math.atan2(way[1], way[0])))
+        at.centre_of_mass_m = at.centre_of_mass_m + 0.5 * np.array([math.cos(jumps), math.sin(jumps), 0.0])
+        return Hop(True, 0.5, 0.3, 0.0, 1.0)
+
+    monkeypatch.setattr(course, "steers", lambda _robot: SimpleNamespace(figures={"turn_energy_j": 0.0}))
+    monkeypatch.setattr(course, "hop", jump)
+    to, rng = Course(points_m=((4.0, 0.0),)), np.random.default_rng(0)
+    trip = course._trip(at, [np.array([4.0, 0.0])], to, rng, SimpleNamespace(on=False), 0.0, 0.5)
+    assert trip.arrived
+    assert aside_deg[:5] == pytest.approx([20.0, 10.0, 0.0, 0.0, 0.0], abs=2.0)
 
 
 @pytest.mark.thorough
