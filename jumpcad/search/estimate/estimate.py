@@ -37,12 +37,13 @@ REACH = 0.25
 """Distance from the best, in scales of the space, at which a robot counts half as much; judgement."""
 LEARNED, SLACK = 2, 0.2
 """Robots that a limit has rejected, from which on its margins are fitted, and by how much a margin may be missed, in
-arcsinh of its typical size; judgement."""
+arcsinh of its typical size; after each robot in a row that this limit rejects, so much less; judgement."""
 RIDGE = 1e-3
 FEW, FEW_MORE = 80, 10.0
 """Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
 LEAST, GROWTH = 8, 1.3
-"""Robots from which on figures are fitted; they are fitted anew when there are so many times more."""
+"""Robots from which on figures are fitted; they are fitted anew where there are so many times more, or one was
+rejected."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
 
@@ -52,20 +53,20 @@ class FittedFigures:
 
     Weighted ridge regression about a point; see `of`. Coefficients (features + layout figures,) of logarithms of what
     is `positive` and of `others`, by name, and (layout figures, features) of the layout's own figures. `sizes` are
-    typical margins of the limits that rejected robots: their figures are arcsinh(margin / size).
+    typical margins of the limits that rejected robots, and their slacks: their figures are arcsinh(margin / size).
     """
 
     def __init__(
         self, positive: Mapping[str, Array], others: Mapping[str, Array], layouts: Array, scale: Array | float = 1.0,
-        sizes: Mapping[str, float] = NOTHING,
+        sizes: Mapping[str, tuple[float, float]] = NOTHING,
     ) -> None:  # fmt: skip
         self._scale, self._logarithms, self._layouts, self._sizes = scale, len(positive), layouts, sizes
         self._names, self._matrix = [*positive, *others], np.array([*positive.values(), *others.values()])
 
     def margins(self, figures: Mapping[str, float]) -> tuple[dict[str, float], bool]:
         """Return the margins of the limits that rejected robots, and whether all are likely kept."""
-        margins = {name: size * math.sinh(figures[name]) for name, size in self._sizes.items()}
-        return margins, all(figures[name] > -SLACK for name in margins)
+        margins = {name: size * math.sinh(figures[name]) for name, (size, _) in self._sizes.items()}
+        return margins, all(figures[name] > -slack for name, (_, slack) in self._sizes.items())
 
     @classmethod
     def of(cls, space: Space, trials: Sequence[Trial], centre: Array) -> Self:
@@ -89,8 +90,9 @@ class FittedFigures:
         for name in sorted(name for name, count in rejections.items() if count >= LEARNED and EQUALS not in name):
             margins = np.array([one.margins.get(name, np.nan) for one in evaluations])
             if np.isfinite(margins).all():
-                sizes[name] = typical_size(margins)
-                others[name] = solver @ np.arcsinh(margins / sizes[name])
+                size = typical_size(margins)
+                in_a_row = next((k for k, one in enumerate(evaluations[::-1]) if name not in one.missed), len(margins))
+                sizes[name], others[name] = (size, SLACK * (1.0 - in_a_row)), solver @ np.arcsinh(margins / size)
         return cls(positive, others, (_solver(plain, weights, units.shape[1]) @ laid).T, space.scale, sizes)
 
     def predict(self, unit: Array, laid: Mapping[str, float] | None) -> dict[str, float]:
@@ -160,7 +162,9 @@ class Estimator:
         """Fit the figures of the robots that were built, if there are enough new ones among some trials."""
         built = [] if self._space.varies_workshop else [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
         power = math.floor(math.log(len(built) / LEAST, GROWTH) + 1e-9) if len(built) >= LEAST else 0
-        rows = min(len(built), round(LEAST * GROWTH**power))
+        rejected = (any(EQUALS not in name for name in one.evaluation.missed) for one in built)
+        last = max((number for number, one in enumerate(rejected, 1) if one), default=0)
+        rows = min(len(built), max(round(LEAST * GROWTH**power), last))
         if len(built) < LEAST or rows == self._rows:
             return
         known = built[:rows]

@@ -17,7 +17,7 @@ from jumpcad.search.models import PrintedModel
 from jumpcad.search.propose.acquisition import Proposal, propose
 from jumpcad.search.propose.dry_run import TRIED, DryRun
 from jumpcad.search.propose.initial_designs import first_points
-from jumpcad.search.propose.proposal_loop import WITHIN, WITHIN_AT_ALL, ProposalLoop
+from jumpcad.search.propose.proposal_loop import ProposalLoop
 from jumpcad.search.space import Space
 from jumpcad.search.study.evaluator import Evaluator
 from jumpcad.search.study.objective import SCREENED
@@ -37,11 +37,10 @@ RUN_SEED = 1_000_000
 IDLE, IDLE_ALONE = 20, 25
 """The search ends after so many steps in a row that gain too little: where robots are estimated, and where not. After
 ten, one of two searches of everything that can be built had ended at 25 designs."""
-HOPELESS, FARTHEST = 1e-8, 6.25
-"""Of the best score: what a proposal promises that promises nothing. Neighbours are then up to so many times as far
-away, an eighth of the unit cube along an axis; judgement."""
+HOPELESS = 1e-8
+"""Of the best score: what a proposal promises that promises nothing; judgement."""
 STALLED = 4
-"""Steps in a row without a gain after which neighbours are evaluated; judgement."""
+"""Steps in a row without a gain after which neighbours are evaluated, and other hills in turn; judgement."""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""
@@ -68,14 +67,13 @@ def run_bayesian(evaluator: Evaluator, stage: Stage, polls: bool = True) -> bool
         while len(proposals) < count:
             admits = unproposed(evaluator, proposals, loop.may_hold)
             ask = partial(propose, evaluator.space, best=best, elite=elite, generator=generator, admits=admits)
-            beside = loop.beside(trials, admits, generator) if stalled else None
+            beside = loop.beside(trials, admits, generator, far=idle() % 2 == 1) if stalled else None
             proposal = beside or loop.propose(ask, best)
             if proposal is None:
                 break
             holds = beside is not None or loop.holds(proposal)
             if polls and beside is None and not (holds and proposal.promised_gain(best) >= HOPELESS):
-                wider, within = FARTHEST ** generator.random(), WITHIN if holds else WITHIN_AT_ALL
-                proposal = loop.beside(trials, admits, generator, wider, within) or proposal
+                proposal = loop.beside(trials, admits, generator, far=True) or proposal
             proposals.append(proposal)
         return proposals
 

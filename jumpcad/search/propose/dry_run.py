@@ -5,6 +5,7 @@ the next proposal is better. All of it follows from the trials and from the poin
 resumed search goes on alike.
 """
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
@@ -70,6 +71,11 @@ class DryRun:
     def look_at(self, variants: Iterable[Variant]) -> None:
         """Lay out and estimate, on all cores, what was not yet."""
         self.estimator.look_at(variants, self._evaluator.shared)
+
+    def rough(self, points: Sequence[Array] | Array) -> Array:
+        """Return about the scores (n,) of points (n, d), without their layouts; -inf of what would not do."""
+        found = (self.estimator.rough(self._variant(point)) for point in points)
+        return np.array([one.score if one and one.kept and one.score else -math.inf for one in found])
 
     def score(self, variant: Variant, required: bool = True) -> float | None:
         """Return the estimated score of a variant; None where it has no room, does not jump or misses a requirement.

@@ -79,12 +79,8 @@ def ranked_points(evaluator: Evaluator, generator: np.random.Generator) -> list[
     order = np.argsort(-scores, kind="stable")
     points, scores = points[order], scores[order]
     count = min(BRED, int(np.isfinite(scores).sum()))
-    for _ in range(GENERATIONS if count >= 8 else 0):
-        children = space.snap(bred(points[:count], generator).round(DIGITS))
-        both, their = np.vstack([points[:count], children]), np.append(scores[:count], scored(children))
-        better = np.arange(count) + count * (their[count:] > their[:count])
-        order = better[np.argsort(-their[better], kind="stable")]
-        points[:count], scores[:count] = both[order], their[order]
+    if count >= 8:
+        points[:count], scores[:count] = evolved(points[:count], scores[:count], GENERATIONS, space, scored, generator)
     order = np.argsort(-scores, kind="stable")
     return [*shipped_points(evaluator), *(points[index] for index in order if math.isfinite(scores[index]))]
 
@@ -106,6 +102,21 @@ def shipped_points(evaluator: Evaluator) -> list[Array]:
     found = evaluator.shared(lambda one: score_or_touchdown(quick(one.design, one.workshop), objective), inside)
     order = np.argsort(-np.array([*found]), kind="stable")[:SHIPPED]
     return [space.to_unit(inside[index]) for index in order if math.isfinite(found[index])]
+
+
+def evolved(
+    points: Array, scores: Array, generations: int, space: Space, scored: Callable[[Array], Array],
+    generator: np.random.Generator,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return points (n, d) and scores (n,) after some generations, in each of which a better child takes a place."""
+    for _ in range(generations):
+        order = np.argsort(-scores, kind="stable")
+        points, scores = points[order], scores[order]
+        children = space.snap(bred(points, generator).round(DIGITS))
+        theirs = scored(children)
+        better = theirs > scores
+        points, scores = np.where(better[:, None], children, points), np.where(better, theirs, scores)
+    return points, scores
 
 
 def bred(parents: Array, generator: np.random.Generator) -> Array:

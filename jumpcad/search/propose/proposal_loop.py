@@ -2,8 +2,8 @@
 
 The score of a printed robot has steps of a per cent, where a section grows or a part takes another place. The processes
 smooth over them, and promise nothing where a ridge of steps goes on. Points a step away along each axis (compass
-search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are estimated, and the best of them are evaluated;
-near and far ones where a proposal promises nothing.
+search: Kolda, Lewis and Torczon, SIAM Review 2003) and some aslant are estimated, and the best of them are evaluated.
+The score has many hills, too: others are bred of the best estimates, far from all robots.
 """
 
 import math
@@ -15,9 +15,9 @@ import numpy as np
 
 from jumpcad.search.propose.acquisition import DIGITS, HELD_BONUS, Proposal
 from jumpcad.search.propose.dry_run import DryRun
-from jumpcad.search.propose.initial_designs import bred
+from jumpcad.search.propose.initial_designs import APART, evolved
 from jumpcad.search.propose.posterior import SearchPosterior
-from jumpcad.search.space import Space
+from jumpcad.search.space import Space, apart
 from jumpcad.search.study.trial import Trial, best_trial
 from jumpcad.search.study.variant import NOTHING, Key, Variant
 from jumpcad.transforms import Array
@@ -36,11 +36,12 @@ STEP = 0.02
 """Distance of a neighbour, in scales of the space; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
-PARENTS = 16
-"""Points with the best estimates of which others are bred; judgement."""
-WITHIN, WITHIN_AT_ALL = 0.005, 0.1
-"""Of a neighbour's estimate: how much less than the best's it may be; judgement: about what it is wrong by, and more
-where all that was proposed has no room."""
+PARENTS, FAR_BRED, AWAY = 16, 6, 0.05
+"""Best estimates of which others are bred, for how many generations far from robots, and how far; judgement."""
+LAID_OUT = 16
+"""Points that are tried, of those with the best rough estimates; judgement."""
+WITHIN = 0.005, 0.1
+"""How much worse than the best's an estimate may be, near it and far away; judgement: near, what it is wrong by."""
 
 
 class ProposalLoop:
@@ -101,35 +102,47 @@ class ProposalLoop:
         return proposal
 
     def beside(
-        self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator,
-        wider: float = 1.0, within: float = WITHIN,
-    ) -> Proposal | None:  # fmt: skip
-        """Return what lies near the best of some trials, or is bred, with the best estimate; None of a worse one.
+        self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator, far: bool
+    ) -> Proposal | None:
+        """Return what lies near the best of some trials, or away from all robots, with the best estimate.
 
-        `admits` tells which variants are new; neighbours are so many times `wider` apart. All of them are tried.
-        `within` is a share of the best's estimate.
+        None of a worse one than the best's; those `far` away, on other hills, may be a little worse. `admits` tells
+        which variants are new.
         """
         best, dry_run = best_trial(trials), self._ready
         if dry_run is None or best is None:
             return None
-        points = neighbours(self._space, best, generator, wider)
-        known = dry_run.estimates(self._trials, self.tried).values()
-        held = [(score, point) for point, score in known if dry_run.failure(self._space.to_variant(point)) is None]
-        parents = [point for _, point in sorted(held, key=lambda one: -one[0])[:PARENTS]]
-        if len(parents) >= 4:  # other hills than the best's are climbed too
-            points += list(self._space.snap(bred(np.array(parents), generator).round(DIGITS)))
+        points = [] if far else neighbours(self._space, best, generator)
+        points += [*self._bred(dry_run, FAR_BRED if far else 1, generator)]
+        if far:
+            robots = np.array([self._space.to_unit(one.variant) for one in self._trials])
+            points = [one for one in points if np.abs(robots - one).max(axis=1).min() > AWAY]
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
+        roughly = dry_run.rough([point for point, _ in new])
+        new = [new[index] for index in np.argsort(-roughly, kind="stable")[:LAID_OUT]]
         dry_run.look_at(one for _, one in new)
         offers, before = [], {one.key for one in dry_run.tried(self._trials, self.tried)}
         for point, one in new:
             self.tried += [] if one.key in before else [point]
             offers.append((dry_run.score(one) or 0.0, Proposal(one, point, 0.0, 0.0)))
         score, found = max(offers, key=lambda offer: offer[0], default=(0.0, None))
-        if found is None or score < (1.0 - within) * (dry_run.score(best.variant, required=False) or math.inf):
+        least = (1.0 - WITHIN[far]) * (dry_run.score(best.variant, required=False) or math.inf)
+        if found is None or score < least:
             return None
         found = _best_of([found], self._learned(), best.score or 0.0)
         self._proposed.append(found.unit)
         return found
+
+    def _bred(self, dry_run: DryRun, generations: int, generator: np.random.Generator) -> Array:
+        """Return points (n, d) that are bred of the best estimates, of several hills; few estimates breed nothing."""
+        known = dry_run.estimates(self._trials, self.tried).values()
+        held = [(score, point) for point, score in known if dry_run.failure(self._space.to_variant(point)) is None]
+        held.sort(key=lambda one: -one[0])
+        chosen = [held[index] for index in apart([point for _, point in held], APART, PARENTS)]
+        if len(chosen) < 4:
+            return np.empty((0, self._space.dimension))
+        points, scores = np.array([point for _, point in chosen]), np.array([score for score, _ in chosen])
+        return evolved(points, scores, generations, self._space, dry_run.rough, generator)[0]
 
     def holds(self, proposal: Proposal) -> bool:
         """Whether a proposal holds in a dry run, of which it is learned."""
@@ -152,8 +165,8 @@ class ProposalLoop:
         centre = self._space.to_unit(found.variant)
         numbers = np.eye(self._space.dimension)[np.array(self._space.categories) == 0]
         beside = np.clip(centre + AROUND * self._space.scale * np.vstack([-numbers, numbers]), 0.0, 1.0)
-        apart = (np.abs(beside - centre) / self._space.scale).max(axis=1) > 0.5 * AROUND  # else a bound is too near
-        self.tried += list(self._space.snap(beside[apart].round(DIGITS)))
+        free = (np.abs(beside - centre) / self._space.scale).max(axis=1) > 0.5 * AROUND  # else a bound is too near
+        self.tried += list(self._space.snap(beside[free].round(DIGITS)))
         dry_run.look_at(map(self._space.to_variant, self.tried))
 
     def may_hold(self, variant: Variant) -> bool:
@@ -181,13 +194,13 @@ def _best_of(proposals: Sequence[Proposal], posterior: SearchPosterior, best: fl
     return replace(proposals[chosen], log_improvement=float(improvement[chosen]), log_feasible=float(feasible[chosen]))
 
 
-def neighbours(space: Space, best: Trial, generator: np.random.Generator, wider: float = 1.0) -> list[Array]:
+def neighbours(space: Space, best: Trial, generator: np.random.Generator) -> list[Array]:
     """Return points (d,) near a trial that differ along the axes of numbers on whose bounds it does not lie.
 
-    A step away along each of them, both ways, and `DRAWN` that are drawn at such a distance, so many times `wider`.
+    A step away along each of them, both ways, and `DRAWN` that are drawn at such a distance.
     """
     centre, half = space.to_unit(best.variant), 0.5 * STEP * space.scale
     inside = (centre > half) & (centre < 1.0 - half) & (np.array(space.categories) == 0)
-    ways = wider * STEP * np.diag(space.scale)[inside]
-    drawn = wider * DRAWN_STEP * space.scale * inside * generator.standard_normal((DRAWN, space.dimension))
+    ways = STEP * np.diag(space.scale)[inside]
+    drawn = DRAWN_STEP * space.scale * inside * generator.standard_normal((DRAWN, space.dimension))
     return list(space.snap(np.clip(centre + np.vstack([ways, -ways, drawn]), 0.0, 1.0).round(DIGITS)))

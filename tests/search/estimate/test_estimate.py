@@ -182,6 +182,11 @@ def test_margins_of_limits_that_reject_are_fitted_too():
         margins, kept = fit.margins(fit.predict(point, NONE))
         assert margins == {"weak": pytest.approx(0.4 - first, abs=0.1)}
         assert kept == (first < 0.4)
+    near, far = (np.append((first + 1.0) / 2.0, CENTRE[1:]) for first in (0.35, -0.9))
+    rejected = [trial for trial in trials if trial.evaluation.missed]
+    warned = FittedFigures.of(SPACE, [*trials, *rejected[:4]], CENTRE)  # four in a row
+    assert [one.margins(one.predict(near, NONE))[1] for one in (fit, warned)] == [True, False]
+    assert warned.margins(warned.predict(far, NONE))[1]
 
 
 def test_a_mass_is_fitted_by_its_logarithm_and_stays_positive():

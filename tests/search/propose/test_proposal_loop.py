@@ -8,7 +8,16 @@ import pytest
 from support.hills import SMALL, Hill
 
 from jumpcad.search.propose.acquisition import Proposal
-from jumpcad.search.propose.proposal_loop import DRAWN, HELD, ROUNDS, STEP, WITHIN, ProposalLoop, neighbours
+from jumpcad.search.propose.proposal_loop import (
+    AWAY,
+    DRAWN,
+    HELD,
+    ROUNDS,
+    STEP,
+    WITHIN,
+    ProposalLoop,
+    neighbours,
+)  # fmt: skip
 from jumpcad.search.space import Space
 from jumpcad.search.study.objective import Evaluation
 from jumpcad.search.study.trial import Trial
@@ -44,6 +53,9 @@ class DryRun:
     def score(self, variant, required=True):
         """The sum of its coordinates."""
         return float(SMALL.to_unit(variant).sum())
+
+    def rough(self, points):
+        return np.array([sum(point) for point in points])
 
     def failures(self, trials, tried):
         return [one for one in map(self.failure, map(SMALL.to_variant, tried)) if one is not None]
@@ -175,20 +187,40 @@ def test_the_neighbour_with_the_best_guess_is_proposed_if_it_is_about_as_good_as
     best = replace(trial_of(np.array([0.5, 0.5, 0.5])), score=2.0)
     dry_run = DryRun()
     loop = ProposalLoop(SMALL, TRIALS, dry_run, {}, refit=False)
-    assert loop.beside([best], lambda _: True, np.random.default_rng(0)) is None  # nothing can be guessed yet
+    assert (
+        loop.beside([best], lambda _: True, np.random.default_rng(0), far=False) is None
+    )  # nothing can be guessed yet
     dry_run.estimator.ready = True
-    found = loop.beside([best], lambda _: True, np.random.default_rng(0))
+    found = loop.beside([best], lambda _: True, np.random.default_rng(0), far=False)
     assert len(loop.tried) == 6 + DRAWN
     assert found.unit.sum() == pytest.approx(max(point.sum() for point in loop.tried))
     assert found.unit.sum() >= 1.5 + STEP
     new = {SMALL.to_variant(point).key for point in loop.tried} - {found.variant.key}
-    other = loop.beside([best], lambda one: one.key in new, np.random.default_rng(0))
-    assert 1.5 * (1.0 - WITHIN) < other.unit.sum() < found.unit.sum()
+    other = loop.beside([best], lambda one: one.key in new, np.random.default_rng(0), far=False)
+    assert 1.5 * (1.0 - WITHIN[0]) < other.unit.sum() < found.unit.sum()
     assert len(loop.tried) == 6 + DRAWN  # the same points, which are learned from once
-    lesser = {key for key in new if dry_run.score(variant_of(loop, key)) < 1.5 * (1.0 - WITHIN)}
+    lesser = {key for key in new if dry_run.score(variant_of(loop, key)) < 1.5 * (1.0 - WITHIN[0])}
     assert lesser
-    assert loop.beside([best], lambda one: one.key in lesser, np.random.default_rng(0)) is None
-    assert loop.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0)) is None
+    assert loop.beside([best], lambda one: one.key in lesser, np.random.default_rng(0), far=False) is None
+    assert loop.beside([replace(best, score=None)], lambda _: True, np.random.default_rng(0), far=False) is None
+
+
+def test_other_hills_are_away_from_all_robots_and_not_much_worse_than_the_best():
+    """Guesses grow with all coordinates; the same parents breed the same children."""
+    dry_run, points = DryRun(half=2.0, ready=True), [SMALL.to_unit(one.variant) for one in TRIALS]
+    dry_run.estimates = lambda _trials, _tried: {number: (point, point.sum()) for number, point in enumerate(points)}
+    best = replace(max(TRIALS, key=lambda one: SMALL.to_unit(one.variant).sum()), score=2.0)
+
+    def other(robots):
+        loop = ProposalLoop(SMALL, robots, dry_run, {}, refit=True)
+        return loop.beside([best], lambda _: True, np.random.default_rng(0), far=True)
+
+    found = [other(TRIALS)]
+    found.append(other([*TRIALS, trial_of(found[0].unit)]))
+    assert np.abs(found[1].unit - found[0].unit).max() > AWAY
+    assert all(one.unit.sum() > (1.0 - WITHIN[1]) * SMALL.to_unit(best.variant).sum() for one in found)
+    dry_run.estimates = lambda _trials, _tried: {}
+    assert other(TRIALS) is None  # nothing to breed of
 
 
 def variant_of(loop, key):
@@ -216,5 +248,3 @@ def test_neighbours_lie_along_the_axes_that_are_on_no_bound():
     edge = replace(best, design=SMALL.to_design(np.array([0.004, 0.5, 0.996])), workshop={})  # nearer than half a step
     near = np.array(neighbours(SMALL, edge, np.random.default_rng(0)))
     assert near[:, [0, 2]] == pytest.approx(np.tile([0.004, 0.996], (2 + DRAWN, 1)), abs=1e-3)
-    wider = np.array(neighbours(SMALL, whole, np.random.default_rng(0), 2.5)) - [0.4, 0.5, 0.6]
-    assert wider == pytest.approx(2.5 * (points - [0.4, 0.5, 0.6]), abs=3e-4)  # of the same draws, to four digits
