@@ -91,7 +91,9 @@ def measured(subject: Subject, true: dict[str, float], jump: Jump, plan: int, rn
         points = np.column_stack([t, x + noise[0], z + noise[1]])
         seen = (seen_takeoff(points, "synthetic", subject.fastest_m_s),)
         data["videos"] = ({"points": "synthetic.csv", "point": "centre-of-mass"},)
-    return subject.remeasured(Measurements(**data), seen)
+    other = replace(subject, measured=Measurements(**data), seen=seen)
+    vars(other).update({name: getattr(subject, name) for name in ("surface", "standing_m", "beyond_m")})
+    return other
 
 
 def trials(robot: str, count: int, seed: int) -> dict[str, Any]:

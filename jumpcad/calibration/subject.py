@@ -75,12 +75,6 @@ class Subject:
         further = [-jump.touchdown_gap_m for jump in jumps if jump.touchdown_gap_m is not None]
         return (float(np.mean(further)), float(np.std(further))) if further else (0.0, 0.02)
 
-    def remeasured(self, measured: Measurements, seen: tuple[TakeoffSeen, ...] = ()) -> "Subject":
-        """Return the same robot with other measurements, which are not checked; its jumps are not simulated again."""
-        other = replace(self, measured=measured, seen=seen)
-        vars(other).update({name: getattr(self, name) for name in ("surface", "standing_m", "beyond_m")})
-        return other
-
     def landing(self) -> "Subject":
         """Return the robot with the travel of simulated landings: normal, with their mean and deviation (MuJoCo)."""
         rng, found = np.random.default_rng(0), []

@@ -79,7 +79,6 @@ class Arena:
         joint = model.joint(robot.spring.joint)
         self._leg, self._leg_rate = int(joint.qposadr[0]), int(joint.dofadr[0])
         self._latch = int(model.equality("latch").id)
-        self._free = model.joint("free")
         rubs = coefficients(robot, settings)
         of = {
             body: rubs.contact("foot" if name == WHEEL else robot.bodies[name].surface)

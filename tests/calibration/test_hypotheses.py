@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.calibrations import remeasured
 
 from jumpcad.calibration import hypotheses
 from jumpcad.calibration import subject as subject_module
@@ -33,7 +34,7 @@ def test_jumps_with_twice_the_energy_are_of_two_springs(subject: Subject) -> Non
         jumps=({"distance_mm": (1000.0 * jump.range_m[0],), "distance_of": "centre-of-mass",
                 "height_mm": (1000.0 * jump.rise_m[0],), "height_of": "rise", "jumps": 5},),
     )  # fmt: skip
-    found = {(one["name"], one["travel"]): one for one in compare_hypotheses([subject.remeasured(measured)])}
+    found = {(one["name"], one["travel"]): one for one in compare_hypotheses([remeasured(subject, measured)])}
     two, shared = found["two springs of the stated rate", "prior"], found["one factor on energy over mass", "prior"]
     assert found["as designed", "prior"]["odds"] == 1.0
     assert two["odds"] > 100.0
@@ -45,11 +46,11 @@ def test_jumps_with_twice_the_energy_are_of_two_springs(subject: Subject) -> Non
 
 def test_all_robots_are_read_in_one_way(subject: Subject) -> None:
     lengths = {"distance_of": "unknown", "height_of": "unknown"}
-    first = subject.remeasured(
-        Measurements(**SAID, jumps=({"distance_mm": (200.0,), "height_mm": (70.0,), **lengths},))
+    first = remeasured(
+        subject, Measurements(**SAID, jumps=({"distance_mm": (200.0,), "height_mm": (70.0,), **lengths},))
     )
-    second = subject.remeasured(
-        Measurements(**SAID, jumps=({"distance_mm": (230.0,), "height_mm": (75.0,), **lengths},))
+    second = remeasured(
+        subject, Measurements(**SAID, jumps=({"distance_mm": (230.0,), "height_mm": (75.0,), **lengths},))
     )
     object.__setattr__(second, "name", "twin")
     for one in compare_hypotheses([first, second]):

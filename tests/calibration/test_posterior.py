@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support.calibrations import remeasured
 
 from jumpcad.calibration import posterior as module
 from jumpcad.calibration.likelihood import CalibrationModel, CalibrationParameter, Datum, Predicted
@@ -26,7 +27,7 @@ SHORTEST = {"steps": 20, "most_steps": 20, "walkers_each": 8}
 
 def measured(subject: Subject, **data: Any) -> Subject:
     """Return the robot with other measurements."""
-    return subject.remeasured(Measurements(**SAID, **data))
+    return remeasured(subject, Measurements(**SAID, **data))
 
 
 def fitted(subject: Subject, **data: Any) -> CalibrationPosterior:
@@ -217,7 +218,7 @@ def test_each_robot_has_its_own_energy(subject: Subject) -> None:
     One that is not weighed varies by a fifth, so that its own quantiles lie farther apart.
     """
     heavy = measured(subject, mass={"robot_g": 1250.0 * subject.robot.mass_kg})
-    other = replace(subject.remeasured(Measurements(**{**SAID, "release": "fixed"})), name="other")
+    other = replace(remeasured(subject, Measurements(**{**SAID, "release": "fixed"})), name="other")
     model = CalibrationModel([heavy, other])
     z = np.zeros((3, len(model.parameters)))
     z[:, [one.key for one in model.parameters].index("mass:other")] = (-1.0, 0.0, 1.0)

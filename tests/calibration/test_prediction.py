@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from support.calibrations import stand_in
+from support.calibrations import remeasured, stand_in
 
 from jumpcad.calibration.likelihood import CalibrationModel
 from jumpcad.calibration.measurements import Measurements
@@ -27,12 +27,12 @@ JUMPS = ({"distance_mm": (220.0,), "distance_of": "centre-of-mass"},)
 def posterior(subject: Subject) -> CalibrationPosterior:
     """Of a weighed robot on a tested floor."""
     measured = Measurements(**SAID, jumps=JUMPS, mass={"robot_g": 103.0}, floor={"slope_deg": (38.0,)})
-    return sampled(CalibrationModel([subject.remeasured(measured)]), 0, 300, 300, 30)
+    return sampled(CalibrationModel([remeasured(subject, measured)]), 0, 300, 300, 30)
 
 
 def twin(subject: Subject, **data: Any) -> Subject:
     """Return the same robot under another name, with a pair of springs of its own."""
-    found = subject.remeasured(Measurements(**SAID, **data))
+    found = remeasured(subject, Measurements(**SAID, **data))
     object.__setattr__(found, "name", "twin")
     return found
 
@@ -56,7 +56,7 @@ def test_springs_that_robots_share_are_those_of_the_calibration(
 def test_a_robot_of_the_same_name_has_springs_of_its_own(posterior: CalibrationPosterior, subject: Subject) -> None:
     """As two files measured.toml in two folders: a rate on the scale of 0.8 times the model's is believed."""
     rate = {"rate_nmm_per_deg": 0.8 * subject.rate_nmm_per_deg, "springs": 2}
-    found = predicted_jump(posterior, subject.remeasured(Measurements(**SAID, jumps=JUMPS, spring=rate)))
+    found = predicted_jump(posterior, remeasured(subject, Measurements(**SAID, jumps=JUMPS, spring=rate)))
     assert np.median(found.values["rate:kenan-2.0"]) == pytest.approx(0.8, abs=0.01)
 
 
@@ -100,7 +100,7 @@ def test_what_is_no_setting_is_told_with_its_place(posterior: CalibrationPosteri
     stiffness = np.median(found[f"rate:{subject.pair}"]) * subject.robot.design.stiffness_nmm_per_deg
     assert float(rate.split(" = ")[1]) == pytest.approx(stiffness, rel=5e-3)
     (line,) = elsewhere(
-        replace(posterior, model=CalibrationModel([subject.remeasured(Measurements(**SAID, jumps=JUMPS))]))
+        replace(posterior, model=CalibrationModel([remeasured(subject, Measurements(**SAID, jumps=JUMPS))]))
     )
     assert "ground" not in line
 

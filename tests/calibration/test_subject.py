@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from support.calibrations import remeasured
 
 from jumpcad.calibration import subject as subject_module
 from jumpcad.calibration.likelihood import CalibrationModel
@@ -105,21 +106,22 @@ def test_a_part_is_compared_with_the_models(tmp_path: Path, subject: Subject, na
 
 def test_priors_follow_what_was_measured(subject: Subject) -> None:
     said = {"design": "kenan-2.0", "source": "a test", "release": "dog"}
-    nothing = subject.remeasured(Measurements(**said))
+    nothing = remeasured(subject, Measurements(**said))
     assert (nothing.mass.first, nothing.rate.first, nothing.floor.shape) == (1.0, 1.0, "uniform")
     assert nothing.rate.second == subject.robot.workshop.safety.spring_rate_scatter / 2.0
     loose = varied(subject.robot.workshop, {"safety.spring_rate_scatter": 0.3})
     assert replace(nothing, robot=replace(subject.robot, workshop=loose)).rate.second == 0.15
     grams = 1000.0 * subject.robot.mass_kg
-    rough = subject.remeasured(Measurements(**said, mass={"robot_g": grams, "robot_error_g": 0.05 * grams}))
+    rough = remeasured(subject, Measurements(**said, mass={"robot_g": grams, "robot_error_g": 0.05 * grams}))
     assert (rough.mass.first, rough.mass.second) == pytest.approx((1.0, 0.05))
-    much = subject.remeasured(
+    much = remeasured(
+        subject,
         Measurements(
             **said,
             mass={"robot_g": 1.2 * grams},
             spring={"rate_nmm_per_deg": 5.06, "springs": 1, "error_share": 0.02},
             floor={"pull_n": (0.6 * 1.2 * 9.81 * grams / 1000.0,), "slope_deg": (math.degrees(math.atan(0.6)),)},
-        )
+        ),
     )
     assert much.mass.first == pytest.approx(1.2)
     assert (much.rate.first, much.rate.second) == pytest.approx((1.1, 0.022))  # 10.12 over the design's 9.2
@@ -213,7 +215,7 @@ def test_springs_that_two_robots_share_have_one_rate(
     def robot(pair: str | None, rate: float | None) -> Subject:
         spring = {} if pair is None else {"pair": pair}
         measured = {} if rate is None else {"rate_nmm_per_deg": rate, "springs": 2}
-        return subject.remeasured(Measurements(design="kenan-2.0", source="a test", release="dog",
+        return remeasured(subject, Measurements(design="kenan-2.0", source="a test", release="dog",
                                                spring=spring | measured))  # fmt: skip
 
     soft = replace(robot("ours", other), name="soft", robot=with_spring_factor(subject.robot, 1.0 - softer))
