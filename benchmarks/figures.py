@@ -243,6 +243,7 @@ def of_best_printable() -> dict[str, str]:
     ]
     return {
         "command": f"`jumpcad {' '.join(SEARCH)}`",
+        "best score": f"{model(design).metrics['body_lengths']:.2f}",
         "best fitness": f"{built('best-printable')[1].fitness:.2f}",
         "bounds": f"{len(bounds)} parameters: {', '.join(bounds)}",
         "neighbours": f"Of {len(neighbours)} neighbours, half with parameters ±1 %, half with lengths "
@@ -344,7 +345,7 @@ def outcome(model: str) -> Outcome:
 
 def of_search() -> dict[str, str]:
     """Return the score of what the search ends with."""
-    return {"search score": f"{outcome('printed').winner['score']:.2f}"}
+    return {"search today": f"{outcome('printed').winner['score']:.2f}"}
 
 
 def of_masses() -> dict[str, str]:

@@ -34,7 +34,16 @@ from jumpcad.workshop import load_workshop
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from clients import clearances, release_contact, spring_pins
 
-TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable", "best-upright", "best-range")
+TEMPLATES = (
+    "kenan-1.0",
+    "kenan-2.0",
+    "best-ga",
+    "best-bo",
+    "best-printable",
+    "best-upright",
+    "best-range",
+    "best-compact",
+)
 WORKSHOPS = ("default", "fine", "light")
 LEAST_ENERGY = 0.97
 """Share of the springs' energy that must be kept, the lever's bending aside."""

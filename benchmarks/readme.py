@@ -1,13 +1,13 @@
 """Is every figure of README and docs what the program gives today? Exit code 1 and a list of what differs, if not.
 
-Compared are the figures between `<!-- NAME -->` and `<!-- / -->` in README.md, docs/*.md and docs/decisions/*.md, the
-template `best-printable` and its picture. Words have to be the same. Numbers may be a unit of their last digit apart;
+Compared are the figures between `<!-- NAME -->` and `<!-- / -->` in README.md, docs/*.md and docs/decisions/*.md, and
+the picture and report of `best-printable`. Words have to be the same. Numbers may be a unit of their last digit apart;
 those of the search, which may take another path on another processor or library, 1 %; those of a sampler 5 %; CPU
 times, a factor of 1.5.
 
 Run `python benchmarks/readme.py [--cheap | --only search|masses|speed|calibration|effects|parameters ...] [--write]`.
 All but what follows from the templates takes minutes: `--cheap` leaves it out, as the tests do; `--only` takes those
-that it names. `--write` corrects pages, template and picture.
+that it names. `--write` corrects pages, picture and report.
 """
 
 import argparse
@@ -24,19 +24,13 @@ import validated
 
 from jumpcad.bundle.export import report_page
 from jumpcad.bundle.renders import renders
-from jumpcad.design import Design
 from jumpcad.files.outputs import write_atomically
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *sorted((ROOT / "docs" / "decisions").glob("*.md"))]
-TEMPLATE = ROOT / "templates" / "robots" / "best-printable.toml"
 PICTURE = ROOT / "docs" / "best-printable.png"
 COMPARED = ROOT / "templates" / "compared"
 REPORT = ROOT / "examples" / "best-printable-report.html"
-COMMAND = " ".join(("jumpcad", *figures.SEARCH))
-HEADING = "# Farthest for its size that one search found; printable.\n#\n" + (
-    f"# Found by `{COMMAND}` (Bayesian optimisation of the printed robot in the default workshop).\n"
-)
 SPEED_SLACK = 1.0 - 1.0 / figures.SPEED_FACTOR
 """By how much of the greater one two numbers may be apart."""
 
@@ -95,15 +89,6 @@ def apart(written: str, made: str, slack: float = 0.0) -> bool:
     return abs(one - other) > max(1.001 * 10.0**-digits, slack * max(one, other))
 
 
-def template_differences(winner: Design, fitness: float) -> Iterator[str]:
-    """Yield a sentence if the template's fitness is not that of the search, or its heading not that of the command."""
-    if not TEMPLATE.read_text(encoding="utf-8").startswith(HEADING):
-        yield f"{TEMPLATE.name}: does not begin with {HEADING.rstrip()!r}"
-    held = figures.built("best-printable")[1].fitness
-    if abs(held - fitness) > figures.SEARCH_SLACK * fitness:
-        yield f"{TEMPLATE.name}: has fitness {held:.4g}; `{COMMAND}` ends with {fitness:.4g} at {winner.to_vector()}"
-
-
 def picture_differences(write: bool) -> Iterator[str]:
     """Yield a sentence if the template's picture is not what is drawn today."""
     picture = renders(figures.built("best-printable")[0])["rest"]
@@ -138,19 +123,13 @@ def main(arguments: list[str] | None = None) -> int:
     some = parser.add_mutually_exclusive_group()
     some.add_argument("--cheap", action="store_true", help="without search, slicer and CPU times")
     some.add_argument("--only", nargs="+", choices=COSTLY, default=[*COSTLY], help="which of these")
-    parser.add_argument("--write", action="store_true", help="correct pages, template, picture and report")
+    parser.add_argument("--write", action="store_true", help="correct pages, picture and report")
     options = parser.parse_args(arguments)
     wrong, costly = list[str](), [] if options.cheap else options.only
-    if "search" in costly:
-        winner = figures.outcome("printed").winner
-        design = Design(**winner["design"])
-        if options.write:
-            write_atomically(TEMPLATE, HEADING + design.to_toml(), force=True)
-        wrong += template_differences(design, winner["fitness"])
-        wrong += report_differences(options.write)
     if "calibration" in costly:
         wrong += compared_differences(options.write)
     wrong += picture_differences(options.write)
+    wrong += report_differences(options.write)
     made, slack = dict[str, str](), dict[str, float]()
     for make, off in (CHEAP | dict(COSTLY[name] for name in costly)).items():
         found = make()
