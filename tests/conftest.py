@@ -40,6 +40,8 @@ THOROUGH = {
 }  # fmt: skip
 """Folders and files whose tests are all thorough; a quick run does not even import them."""
 QUICK = "not thorough"
+ENGRAVED = {"engraving_findings", "printability_findings"}
+"""Costly checks that look at what a robot's name is engraved on."""
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # else every program that a test starts compiles the package: 0.2 s
 sys.dont_write_bytecode = False
@@ -79,7 +81,7 @@ def judged_once(of_all_workers: Path) -> Iterator[None]:
 
 @pytest.fixture(scope="session")
 def costly_findings() -> dict[object, list[Finding]]:
-    """What `checked_once` has found: by check, design and workshop."""
+    """What `checked_once` has found."""
     return {}
 
 
@@ -87,13 +89,14 @@ def costly_findings() -> dict[object, list[Finding]]:
 def checked_once(costly_findings: dict[object, list[Finding]], monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the costly checks of a robot be made once for all tests that ask for this: they show what uses findings.
 
-    A robot is known by design and workshop: for robots as `build` makes them.
+    A robot is known by design and workshop, and by its name where that matters: for robots as `build` makes them.
     """
 
     def once(one: Check) -> Check:
         @wraps(one.find)
         def find(robot: Robot) -> list[Finding]:
-            key = one.find.__name__, robot.design.to_toml(), robot.workshop.to_toml()
+            check = one.find.__name__
+            key = check, check in ENGRAVED and robot.name, robot.design.to_toml(), robot.workshop.to_toml()
             if key not in costly_findings:
                 costly_findings[key] = list(one.find(robot))
             return costly_findings[key]
