@@ -12,7 +12,7 @@ from jumpcad.evaluation import evaluate
 from jumpcad.findings import errors
 from jumpcad.landing.arena import Arena
 from jumpcad.landing.blows import CAGE, NOSE, TOE, Blow, Blows, part_forces
-from jumpcad.landing.landing import land, share_righted
+from jumpcad.landing.landing import land
 from jumpcad.landing.series import jumps
 from jumpcad.robot.cage.limits import fall_findings
 from jumpcad.robot.robot import Robot
@@ -69,6 +69,8 @@ def test_it_jumps_ten_times_from_its_feet(robot: Robot) -> None:
     series = jumps(robot, 10, record=True)
     assert series.stood == 10
     assert series.way_m > 5.0
+    assert series.heading_drift_deg is not None
+    assert series.heading_drift_deg < 30.0
     path, phases = series.trajectory, np.array(series.phases)
     assert path is not None
     flights = [path.position_m[phases == f"flight {number}", 0, :2] for number in range(1, 11)]
@@ -102,20 +104,20 @@ def test_upside_down_its_hoops_land_first_and_softly(robot: Robot) -> None:
 
 @pytest.mark.thorough
 def test_it_rights_itself(robot: Robot) -> None:
-    """Of 100 drops in any attitude 98 %, of 20 own landings 95 %, and in ten jumps on each of three floors.
+    """Of 25 drops in any attitude 98 %, of 25 own landings 95 %, and in ten jumps on each of two more floors.
 
     There it keeps its direction: from jump to jump it turns by less than 30° in the median.
     """
     pytest.importorskip("mujoco")
     assert not errors(check(robot))
-    assert share_righted(robot, 100, np.random.default_rng(0)) >= 0.98
-    landed = land(robot, 20)
+    landed = land(robot, 25)
+    assert landed.drops_righted >= 0.98
     assert landed.share_righted >= 0.95
     assumed = {one.name: one for one in fall_findings(robot)}  # by shares of the springs' energy
     for one in landed.falls:
         assert (one.value or 0.0) <= (assumed[one.name].value or 0.0), one
         assert one.margin > 0.0, one
-    for seed in (0, 1, 2):
+    for seed in (1, 2):
         series = jumps(robot, 10, seed)
         assert series.stood == 10, seed
         assert series.heading_drift_deg is not None, seed

@@ -45,10 +45,11 @@ def test_a_robot_that_no_cage_rights_is_one_line_and_no_file(monkeypatch: pytest
 
 @pytest.mark.thorough
 def test_the_cage_found_for_best_jumper_is_no_heavier_than_the_templates(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     """What the command writes is a workshop, in which the robot keeps all limits of the cage."""
     pytest.importorskip("mujoco")
+    monkeypatch.setattr(module, "TRIES", 15)
     path = tmp_path / "caged.toml"
     assert exit_code_of("cage", "best-jumper", "-o", str(path)) == 0
     assert capsys.readouterr().out.startswith(text := path.read_text(encoding="utf-8").split("base = ")[0])

@@ -80,11 +80,11 @@ def test_the_centre_of_mass_lies_beside_the_legs_plane_as_the_bodies_say() -> No
 
 @pytest.mark.thorough
 def test_random_robots_touch_down_within_2_degrees() -> None:
-    """100 printed robots of the search's bounds, in MuJoCo; after 2 % of their way at most more or less."""
+    """50 printed robots of the search's bounds, in MuJoCo; after 2 % of their way at most more or less."""
     pytest.importorskip("mujoco")
     rng, workshop, apart = np.random.default_rng(4), load_workshop("default"), list[float]()
     lower, upper = np.transpose([(bound.lower, bound.upper) for bound in SEARCH_BOUNDS.values()])
-    while len(apart) < 100:
+    while len(apart) < 50:
         design = Design.from_vector(rng.uniform(lower, upper).tolist())
         if errors(geometry_findings(design)):
             continue

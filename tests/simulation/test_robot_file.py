@@ -72,7 +72,7 @@ WRONG = [
     (
         "chain_jumper",
         "point_a_mm = [40, 0]",
-        "point_a_mm = [900, 0]",
+        "point_a_mm = [80, 0]",
         "the loaded pose does not close: loops, foot and",
     ),
     (
