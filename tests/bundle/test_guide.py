@@ -27,6 +27,7 @@ from jumpcad.bundle.guide.guide_values import guide_values
 from jumpcad.bundle.guide.markdown import bill_text, duration, put_on, with_bill, write_guide, write_page
 from jumpcad.bundle.limits import limits_of
 from jumpcad.bundle.renders import named_views
+from jumpcad.checks import quick_findings
 from jumpcad.design import Design
 from jumpcad.files import template_names, templates_folder
 from jumpcad.files.templates import environment, render
@@ -88,7 +89,9 @@ def test_a_guide_has_every_article_and_a_box_and_a_picture_for_each_step_in_5000
 
 
 @pytest.mark.thorough
-def test_every_workshop_and_every_part_that_can_be_chosen_has_a_guide() -> None:
+def test_every_workshop_and_every_part_that_can_be_chosen_has_a_guide(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which limits are violated is what it says of the costly ones: here it says so of the others alone."""
+    monkeypatch.setattr(module, "limits_of", quick_findings)
     shop = load_workshop()
     for name in template_names("workshops"):
         require_whole(built("kenan-2.0", name))

@@ -17,7 +17,6 @@ from typer.testing import CliRunner
 from jumpcad.cli.commands import app
 from jumpcad.comparison import compare
 from jumpcad.errors import CannotBuildError
-from jumpcad.search.study import summary
 from jumpcad.search.study.store import StudyStore
 from jumpcad.studio.points import Points
 
@@ -139,12 +138,9 @@ def test_any_search_is_read_again(here: Path, words: list[str], keep: int) -> No
     require=st.sets(st.sampled_from(EVALUATED)),
     seed=st.integers(0, 9),
 )
-def test_a_search_of_printed_robots_is_read_again(
-    here: Path, monkeypatch: pytest.MonkeyPatch, method: list[str], require: set[str], seed: int
-) -> None:
+def test_a_search_of_printed_robots_is_read_again(here: Path, method: list[str], require: set[str], seed: int) -> None:
     """With margins, with what holds on several floors, and with choices of the workshop."""
     furnish(here)
-    monkeypatch.setattr(summary, "TRIES", 2)
     choices = ["--choose", "bought.roller=623,683", "--bound", "body.plate_mm=1.6:2.4"]
     words = [*method, *PRINTED, "--seed", str(seed), *repeated("--require", sorted(require))]
     read_and_go_on(words if "--screen" in words else [*words, *choices], 3)

@@ -5,7 +5,7 @@ The tests of `search/propose` have the whole work.
 
 import pytest
 
-from jumpcad.search.propose import acquisition, surrogate
+from jumpcad.search.propose import acquisition, initial_designs, surrogate
 
 LESS = {
     (acquisition, "CANDIDATES"): 256,
@@ -13,6 +13,8 @@ LESS = {
     (acquisition, "STARTS"): 2,
     (acquisition, "_STEPS"): 12,
     (surrogate, "_FIT_STEPS"): 8,
+    (initial_designs, "SCREENED"): 64,
+    (initial_designs, "GENERATIONS"): 2,
 }
 
 
