@@ -60,6 +60,7 @@ def test_a_trial_is_named_by_its_number(tmp_path: Path) -> None:
             jumpcad.compare(wrong)
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("checked_once")
 def test_a_robot_of_a_study_is_that_of_its_trial(tmp_path: Path) -> None:
     study = tmp_path / "s.db"
@@ -75,6 +76,7 @@ def test_a_robot_of_a_study_is_that_of_its_trial(tmp_path: Path) -> None:
     assert found.robots[0].robot.design == first.design
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("checked_once")
 def test_springs_from_stock_are_compared_by_the_stiffness_that_they_have() -> None:
     found = jumpcad.compare([built("kenan-2.0"), built("first-robot", "first-robot")])

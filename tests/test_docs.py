@@ -143,6 +143,7 @@ def test_commands_named_in_texts_and_tables_exist(page: str) -> None:
         require_known(shlex.split(command))
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("built_once", "checked_once")
 def test_python_of_the_cheat_sheet_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Row after row; of searches, whether they can be called so."""

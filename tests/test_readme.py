@@ -31,6 +31,7 @@ def readme() -> ModuleType:
         sys.path.pop(0)
 
 
+@pytest.mark.thorough
 def test_figures_that_follow_from_the_templates(readme: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
     needs.package("pybullet")
     code = readme.main(["--cheap"])

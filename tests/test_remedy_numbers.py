@@ -39,6 +39,7 @@ def wrong(design: Design) -> list[str]:
     return [one.name for one in found if one.severity != "info"]
 
 
+@pytest.mark.thorough
 def test_the_value_that_is_named_cures_and_was_found_by_few_tries(tried: list[Design]) -> None:
     """Of limits, and of a design that cannot be built; the change is at most twice the least that cures."""
     for key, value, named in (("c_coef", 0.7, "raise (e_coef) to "), ("compression_ratio", 0.133, "raise (s.*?g) to "),

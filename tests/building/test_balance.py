@@ -20,6 +20,7 @@ def built(name: str = "kenan-2.0", **values: float | str) -> Robot:
     return build(load_design(name), varied(load_workshop(), keys), name)
 
 
+@pytest.mark.thorough
 def test_the_usb_plug_passes_the_plate_at_which_its_socket_is() -> None:
     """A plug of the USB Type-C specification, 12.35 x 6.5 mm, its middle 2.8 mm above the board's underside."""
     for boards, other in (("left", "right"), ("right", "left")):

@@ -85,6 +85,7 @@ def test_other_versions_that_give_the_same_bytes_leave_the_manifest_as_it_is(
     assert json.loads((target / "manifest.json").read_text())["versions"]["numpy"] == "99.0"
 
 
+@pytest.mark.thorough
 def test_a_build_killed_at_any_step_leaves_a_whole_bundle(target: Path) -> None:
     for step, left in {"write": "old", "link": "old", "exchange": "new", "clean": "new", "rename": "new"}.items():
         old(target)  # what a killed build left beside it is in nobody's way

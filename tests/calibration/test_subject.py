@@ -275,6 +275,7 @@ def test_slow_motion_divides_the_time_of_a_video(tmp_path: Path) -> None:
     assert (seen.speed_m_s, seen.angle_deg) == pytest.approx((math.sqrt(2.0), 45.0), rel=1e-3)
 
 
+@pytest.mark.thorough
 def test_simulated_landings_take_the_place_of_a_free_travel() -> None:
     """Those of forty jumps with weaker and stronger springs; other landings of the robot agree with their mean."""
     pytest.importorskip("mujoco")

@@ -159,6 +159,7 @@ def test_pictures_belong_to_the_bundle_that_they_are_drawn_into(
     assert code == 0
 
 
+@pytest.mark.thorough
 def test_a_design_is_edited_and_built_again_but_not_over_another_of_its_name(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -116,6 +116,7 @@ def test_mujoco_reads_every_robot_with_the_figures_of_the_table(run: Run, tmp_pa
         assert model.geom_friction[foot, 0] == pytest.approx(float(row["foot_friction"]), rel=1e-5)
 
 
+@pytest.mark.thorough
 def test_variants_and_page_of_a_robot_that_does_not_jump_say_so(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "still.toml"
     path.write_text(built("kenan-2.0").design.model_copy(update={"compression_ratio": 0.05}).to_toml(), "utf-8")

@@ -19,6 +19,7 @@ SEARCH = (*QUICK, *NARROW, "--evaluations", 24)
 COMPARED = ("optimize", "ga", "bo", *SEARCH, "--seeds", "3:5", "--study", "F.db")
 
 
+@pytest.mark.thorough
 def test_searches_with_seeds_are_those_alone_and_the_most_robust_winner_is_written(folder, monkeypatch):
     found = data(*COMPARED, "--plots", "pics")
     alone = [

@@ -147,6 +147,7 @@ def test_what_is_uncertain_of_a_bundle_is_not_known_of_its_urdf(command: Run, bu
     assert command(urdf, "--uncertain") == (2, "", refused)
 
 
+@pytest.mark.thorough
 def test_a_bundle_lands_and_jumps_on_as_its_design_and_as_python_says_and_its_urdf_alone_is_refused(
     command: Run, bundle: Path
 ) -> None:

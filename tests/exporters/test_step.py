@@ -84,6 +84,7 @@ def test_engraved_plates_close(tmp_path: Path) -> None:
     assert len(solid.faces()) < len(plate.mesh.faces) / 3
 
 
+@pytest.mark.thorough
 @needs_step
 def test_the_same_bytes_in_another_process(tmp_path: Path) -> None:
     here = step.write_step(drawn(HOLED))

@@ -95,6 +95,7 @@ def test_a_slippery_floor_lets_a_robot_slide_farther(arena: Arena) -> None:
     assert slid[1] > 2.0 * slid[0] > 0.0
 
 
+@pytest.mark.thorough
 def test_landings_are_those_of_their_seed(strongest: Robot) -> None:
     first, again, other = (land(strongest, 3, seed) for seed in (1, 1, 2))
     assert first == again

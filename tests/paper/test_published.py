@@ -33,6 +33,7 @@ def test_reference_jumps_are_met_to_the_last_printed_digit(name: str) -> None:
     assert found == pytest.approx(printed, rel=0, abs=6e-7)
 
 
+@pytest.mark.thorough
 @each("parameters", OTHERS)
 def test_other_designs_jump_as_the_recipe_says(parameters: list[float]) -> None:
     """To the last bit: `math.degrees` moves six of them by more than 1e-9 m, `math.asin` one."""

@@ -161,6 +161,7 @@ def test_screening_is_within_its_promise(jumping: list[Flight]) -> None:
         assert jump.ballistic_range_m == pytest.approx(flight.values["ballistic_range_m"], rel=0.012), flight.name
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("engine", ["pybullet", "mujoco"])
 def test_converged_jumps(jumping: list[Flight], engine: str) -> None:
     """At fine steps both engines, which share nothing but the robot, tell the table's jumps.

@@ -1,4 +1,4 @@
-"""Proposals of the Bayesian search with a fifth of the work, for tests of what becomes of them.
+"""Proposals of a search and its winner's landings with less work, for tests of what becomes of them.
 
 The tests of `search/propose` have the whole work.
 """
@@ -6,6 +6,7 @@ The tests of `search/propose` have the whole work.
 import pytest
 
 from jumpcad.search.propose import acquisition, initial_designs, surrogate
+from jumpcad.search.study import summary
 
 LESS = {
     (acquisition, "CANDIDATES"): 256,
@@ -15,10 +16,11 @@ LESS = {
     (surrogate, "_FIT_STEPS"): 8,
     (initial_designs, "SCREENED"): 64,
     (initial_designs, "GENERATIONS"): 2,
+    (summary, "TRIES"): 2,
 }
 
 
 def with_less_work(patch: pytest.MonkeyPatch) -> None:
-    """Draw fewer candidates and improve them, and the processes, with fewer steps."""
+    """Draw fewer candidates, improve them and the processes with fewer steps, and let a winner land less often."""
     for (module, name), value in LESS.items():
         patch.setattr(module, name, value)

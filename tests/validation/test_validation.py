@@ -38,6 +38,7 @@ def test_air_takes_what_the_closed_form_says() -> None:
     assert thrown(5.96, 90.0, 15.6e-4, 7.0).rise_m == pytest.approx(math.log1p(per_m * 5.96**2 / G) / (2.0 * per_m))
 
 
+@pytest.mark.thorough
 def test_members_have_the_published_mass_and_energy_and_take_off_as_published() -> None:
     known: dict[str, float] = {"mass_g": 7.0, "spring_energy_j": 0.154, "takeoff_angle_deg": 75.0, "pushoff_ms": 15.0}
     members, again = (SMALL(**known, seed=3) for _ in range(2))  # type: ignore[arg-type]
@@ -70,6 +71,7 @@ def rows(robots: list[dict[str, Any]], key: str) -> dict[str, dict[str, Any]]:
     return {row["name"]: row for one in robots if one["key"] == key for row in one["figures"]}
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("quick")
 def test_a_remembered_figure_judges_nothing_until_it_is_entered(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
@@ -100,6 +102,7 @@ def test_a_remembered_figure_judges_nothing_until_it_is_entered(
     assert "differs: a parabola of 0.90 m height" in capsys.readouterr().out
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("quick")
 def test_entered_figures_that_disagree_are_not_computed() -> None:
     """No flight of 5.96 m/s reaches 5 m, and no cage makes the robot of 2009 lighter than that of 2008."""

@@ -114,6 +114,7 @@ def test_every_simulation_file_has_the_rods(robot: Robot) -> None:
         assert sum(1 for _ in link.iter(kind)) == number
 
 
+@pytest.mark.thorough
 def test_bill_and_guide_tell_what_to_cut_bend_and_tie(robot: Robot) -> None:
     cage, steps = robot.layout.of(Cage), {step.key: step for step in assembly_steps(robot)}
     assert cage is not None

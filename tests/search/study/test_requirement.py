@@ -101,6 +101,7 @@ def test_righting_is_a_figure_where_it_is_required() -> None:
         assert found.feasible == kept
 
 
+@pytest.mark.thorough
 def test_the_righting_of_a_winner_is_simulated_once(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mujoco")
     monkeypatch.setattr(summary, "TRIES", 2)
