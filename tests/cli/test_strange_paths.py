@@ -6,12 +6,14 @@ import re
 import shutil
 import urllib.parse
 from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 from support.calibrations import with_coarse_calibration
 from support.commands import Run
+from support.pictures import with_few_pictures
 from support.places import ROOT
 from support.slicers import three_parts
 
@@ -19,6 +21,8 @@ from jumpcad.bundle.export import export
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
 from jumpcad.robot.robot import Robot
+from jumpcad.validation import table
+from jumpcad.validation.family import family
 from jumpcad.workshop import load_workshop
 
 STRANGE = f"mein Käfer & Söhne (neu?) 机器人 'x' #1 50%25/{'ü' * 60}/{'long name ' * 9}end"
@@ -101,6 +105,9 @@ def test_every_command_and_every_reader_is_at_home_there(
     place: Path, run: Run, small_robot: Robot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with_coarse_calibration(monkeypatch)
+    with_few_pictures(monkeypatch)
+    monkeypatch.setattr(table, "family", partial(family, members=4, generations=1, draws=60))
+    monkeypatch.setattr(table, "DRAWS", 4)
     design, shop, bundle = place / "mein Käfer.toml", place / "werkstatt ä.toml", place / "bündel 1" / "mein Käfer"
     (place / "messung ä.toml").write_text(MEASURED, encoding="utf-8")
     (place / "points ä.csv").write_text(ROWS)
