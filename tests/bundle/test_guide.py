@@ -4,7 +4,7 @@ import base64
 import math
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -40,6 +40,14 @@ from jumpcad.workshop import load_workshop
 from jumpcad.workshop.varied import varied
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def quick_limits() -> Iterator[None]:
+    """Let a guide warn of what the quick checks find alone: all that it says of the others is their names."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(module, "limits_of", quick_findings)
+        yield
 
 
 @cache
@@ -89,9 +97,7 @@ def test_a_guide_has_every_article_and_a_box_and_a_picture_for_each_step_in_5000
 
 
 @pytest.mark.thorough
-def test_every_workshop_and_every_part_that_can_be_chosen_has_a_guide(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Which limits are violated is what it says of the costly ones: here it says so of the others alone."""
-    monkeypatch.setattr(module, "limits_of", quick_findings)
+def test_every_workshop_and_every_part_that_can_be_chosen_has_a_guide() -> None:
     shop = load_workshop()
     for name in template_names("workshops"):
         require_whole(built("kenan-2.0", name))

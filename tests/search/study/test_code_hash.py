@@ -154,10 +154,12 @@ def test_no_evaluation_imports_what_the_digest_leaves_out():
     code = f"""
 import sys
 from jumpcad.design import load_design
+from jumpcad.search.propose import initial_designs
 from jumpcad.search.study import run as study
 from jumpcad.search.models import CapsuleModel, PrintedModel
 from jumpcad.search.optimization import optimize
 from jumpcad.workshop import load_workshop
+initial_designs.SCREENED, initial_designs.GENERATIONS = 64, 2
 for model in (PrintedModel(workshop=load_workshop("default")), CapsuleModel()):
     model.requiring(["com_rise_m>=0.01"])(load_design("kenan-2.0"))
 optimize("ga", evaluations=24, model="capsule", workers=0)
