@@ -28,9 +28,6 @@ def watch(event, _):
 sys.addaudithook(watch)
 threading.Thread(target=threading.Event().wait, daemon=True).start()
 from jumpcad.cli import main
-if "optimize" in sys.argv:
-    from jumpcad.search.propose import initial_designs
-    initial_designs.SCREENED, initial_designs.GENERATIONS = 64, 2
 main()
 """
 """The command line with a thread, where a copy of the process is an error."""
