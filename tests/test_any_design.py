@@ -62,7 +62,7 @@ def workshops(tmp_path_factory: pytest.TempPathFactory) -> list[Workshop]:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_any_design_has_an_answer(workshops: list[Workshop], seed: int) -> None:
     generator, answers = np.random.default_rng(seed), []
-    for number in range(60):
+    for number in range(100):
         design = any_design(generator)
         with suppress(CannotBuildError):
             simulate(capsule_robot(design), Settings(dt_s=1 / 500))
