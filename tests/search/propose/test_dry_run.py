@@ -48,7 +48,6 @@ def no_builds():
         patch.setattr(Quick, "laid_out", once({}, Quick.laid_out, lambda _, variant: variant.key), raising=False)
         with_less_work(patch)
         patch.setattr("jumpcad.search.propose.proposal_loop.HELD", 2)
-        patch.setattr("jumpcad.search.propose.initial_designs.SCREENED", 64)
         yield
 
 
