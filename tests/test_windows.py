@@ -25,9 +25,9 @@ compare kenan-2.0 my-robot.toml
 variants kenan-2.0 --count 2 -o some
 optimize ga --model capsule --evaluations 12 --workers 2 --study s.db
 optimize ga --model capsule --evaluations 12 --workers 2 --study s.db
-optimize --model capsule --evaluations 12 --workers 2 --study bo.db
-study bo.db
-report bo.db
+optimize --evaluations 8 --workers 2 --study printed.db
+study printed.db
+report printed.db
 study s.db --export s.csv
 """.strip().splitlines()
 
