@@ -89,20 +89,13 @@ def numbers(robot: Robot) -> dict[str, float | int | None]:
 
 
 def _steering_numbers(robot: Robot) -> dict[str, float | int | None]:
-    """Return voltage and times of the steering wheel's motor, as on an empty battery; all None without one.
-
-    A gyroscope lets a turn take twice its time.
-    """
+    """Return voltage and time of the steering wheel's motor, as on an empty battery; None without one."""
     if (place := robot.layout.of(Steering)) is None:
-        return dict.fromkeys(("STEER_V", "STEER_MS_PER_DEG", "STEER_MAX_MS"))
+        return dict.fromkeys(("STEER_V", "STEER_MS_PER_DEG"))
     slow, does = robot.supply.driven(place.motor, robot.supply.empty_v, math.inf), steers(robot)
     speed = free_speed_rad_s(slow) * max(1.0 - does.need_nm / slow.stall_torque_nm, 0.1)
     ms = float(1000.0 * 2.0 * math.pi / speed / does.turn_per_rev_deg)
-    return {
-        "STEER_V": round(slow.voltage_v, 2),
-        "STEER_MS_PER_DEG": round(ms, 1),
-        "STEER_MAX_MS": math.ceil(180.0 * ms * (2.0 if robot.workshop.steering.gyroscope else 1.0)),
-    }
+    return {"STEER_V": round(slow.voltage_v, 2), "STEER_MS_PER_DEG": round(ms, 1)}
 
 
 def start_v(battery: Battery) -> float:

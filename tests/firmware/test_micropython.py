@@ -213,7 +213,7 @@ def run_main(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
             module.RIGHTS_ITSELF = bench.rights_itself
             if bench.steers:
                 module.PIN_STEER_LEFT, module.PIN_STEER_RIGHT = 3, 4
-                module.STEER_V, module.STEER_MS_PER_DEG, module.STEER_MAX_MS = 3.3, 50.0, 9000
+                module.STEER_V, module.STEER_MS_PER_DEG = 3.3, 50.0
         monkeypatch.setitem(sys.modules, name, module)
     for name, fake in modules.items():
         monkeypatch.setitem(sys.modules, name, fake)

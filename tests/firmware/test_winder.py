@@ -360,10 +360,15 @@ def turned_deg(world: World, degrees: int, seconds: float) -> float:
 
 @each("battery_v", [3.4, 4.2])
 @each("degrees", [30, -30, -180])
-def test_a_wound_robot_turns_by_the_angle_whatever_its_battery(battery_v: float, degrees: int) -> None:
+@each("measured_deg", [90.0, 63.0])
+def test_a_wound_robot_turns_by_the_angle_whatever_its_battery_and_floor(
+    battery_v: float, degrees: int, measured_deg: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Calibrated as the README says, by 90 over the angle that a turn of 90 was measured to be."""
+    monkeypatch.setattr(NUMBERS, "STEER_MS_PER_DEG", 50.0 * 90.0 / measured_deg)
     world = wound()
     world.battery_v = battery_v
-    assert turned_deg(world, degrees, 10.0) == pytest.approx(degrees, abs=0.1)
+    assert turned_deg(world, degrees, 15.0) == pytest.approx(degrees, abs=0.1)
     assert (world.winder.state, world.drops) == (WINDER.READY, 0)
 
 
