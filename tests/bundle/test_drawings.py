@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
+import shapely
 from support.built import built, geared, placed
 
 from jumpcad.bundle.drawings.lead_lines import leads_of
@@ -235,14 +236,27 @@ def test_the_sensors_terminals_are_named_at_the_wires_of_their_colours(drawings:
         assert near.get("fill") == colour, word
 
 
-def test_leads_of_a_wheel_run_behind_the_trays_and_inside_along_the_right_plate() -> None:
-    """No longer than they are cut, soldered ends aside; the wheel's end is named in the plate's view."""
+def test_leads_of_a_wheel_run_inside_along_the_right_plate_and_round_its_spring() -> None:
+    """Wires of 1.2 mm never leave the plate's material by more than a pocket's width, and no spring's coil meets them.
+
+    No longer than they are cut, soldered ends aside; the wheel's end is named in the plate's view.
+    """
     robot = built("best-steered", "best-steered")
     (_, inside), cut = robot.layout.lateral.right_plate, {start: mm for _, start, _, _, mm in wires(robot)}
+    cut_open = placed(robot, "body_plate_right").section((0.0, 1.0, 0.0), (0.0, inside - 1.0, 0.0))
+    outline, *holes = sorted((shapely.Polygon(one[:, ::2]) for one in cut_open.discrete), key=lambda one: -one.area)
+    plate = outline - shapely.union_all(holes)
+    spring = robot.layout.drive.spring
+    coil = shapely.Point(robot.layout.hub_mm).buffer(spring.inside_diameter_mm / 2.0 + spring.wire_mm)
     leads = [lead for lead in leads_of(robot) if "steering motor" in lead.parts]
     assert len(leads) == 2
     for lead in leads:
-        assert (abs(lead.points_mm[2:4, 1] - inside - 2.0) < 2.0).all()
+        beside = lead.points_mm[abs(lead.points_mm[:, 1] - inside - 2.0) < 0.5]
+        way = shapely.LineString(beside[:, ::2])
+        assert len(beside) > 6
+        assert outline.contains(way.buffer(0.6))
+        assert way.difference(plate).length < 5.0
+        assert way.distance(coil) > 0.6 + 1.0
         assert sum(map(math.dist, lead.points_mm, lead.points_mm[1:])) <= cut[lead.ends[0]] - 10.0
     page = ET.fromstring(drawings_of(robot)["leads.svg"])
     assert {"steering motor", "← to the wheel"} <= {one.text for one in page.iter(f"{SPACE}text")}

@@ -108,7 +108,7 @@ def _named(layout: Layout, side: str) -> Iterator[tuple[str, list[float]]]:
     fittings = layout.fittings
     x, z = wire_hole_mm(fittings.left_mm if side == "left" else fittings.right_mm)
     yield "wire hole, tie above it", [x, 0.0, z + 10.0]
-    wheel = [("steering motor", 5.0)] * (layout.of(Steering) is not None)
+    wheel = [("steering motor", 7.5)] * (layout.of(Steering) is not None)
     for part, below in (("sensor", 7.0), ("motor", 7.0), ("switch", 4.5), *wheel):
         if plate_of(layout, part) == side:
             at = outer_way(layout, part)[0]

@@ -83,8 +83,6 @@ def leads_of(robot: Robot) -> list[Lead]:
             inside = np.stack(corners(layout, *parts, start[-1], end[-1]))
             if not plate:
                 inside[:, 0] += GAP_LANE_MM * (index - len(rows) / 2.0)
-            elif parts[1] == "steering motor":
-                inside[:, 0] -= LANE_MM * lane[1]
             points = np.concatenate([start, inside, end[::-1]])
         leads.append(Lead(number, colour, ends, points))
     return leads
@@ -103,10 +101,11 @@ def _outer(layout: Layout, part: str, lane: float, count: int, at_plate: int) ->
     `count` leads end at the part; at a plate this is the lead of number `at_plate`, and so far away from it inside.
     """
     way = np.stack(outer_way(layout, part))
+    if part == "steering motor":
+        return way + lane * np.array([LANE_MM, 0.0, -LANE_MM])  # across the strut, and the way round the spring
     if plate := plate_of(layout, part):
         way += PLATE_LANE_MM * lane
-        deep = lane + 0.5 if part == "steering motor" else at_plate  # no others are there
-        way[-1, 1] += LANE_MM * deep * (-1.0 if plate == "left" else 1.0) - PLATE_LANE_MM * lane
+        way[-1, 1] += LANE_MM * at_plate * (-1.0 if plate == "left" else 1.0) - PLATE_LANE_MM * lane
         return way
     seats = layout.electronics.seats(layout.lateral.inside)
     size = np.array(seats.get(part, seats["controller"]).size_mm[:2])

@@ -6,13 +6,15 @@ from collections import defaultdict
 from collections.abc import Mapping
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
-from jumpcad.dimensions import TRAY_MM
+from jumpcad.dimensions import STOP_PAD_MM, TRAY_MM
 from jumpcad.electronics.nets import AT, Terminal, Wiring
 from jumpcad.robot.electronics.fittings import wire_hole_mm
 from jumpcad.robot.layout import Layout
-from jumpcad.robot.steering.place import Steering
-from jumpcad.transforms import Array
+from jumpcad.robot.steering.place import LEADS_MM, SLOT_EDGE_MM, TAB_MM, Steering
+from jumpcad.robot.stop.place import EAR_MM
+from jumpcad.transforms import Array, direction
 
 SLACK_MM = 30.0
 """Added to a wire's way for bends and two soldered ends; judgement."""
@@ -86,12 +88,37 @@ def way_in(layout: Layout, role: str) -> list[Array]:
         x, z = layout.fittings.switch_mm
         return [np.array([x, inside[0] + BESIDE_MM, z])]
     if role == "steering motor" and (place := layout.of(Steering)) is not None:
-        x, z = place.at(place.cradle_x_mm[1], 0.0)
-        return [np.array([x, float(place.T_body_axle[1, 3]), z])]
+        return _wheels_way(layout, place)
     seats = layout.electronics.seats(inside)
     seat = seats.get(role, seats["controller"])  # what is soldered into a wire lies at the controller
     x, z = layout.tray_mm
     return [np.array([x + seat.x_mm, seat.y_mm, z + seat.bottom_mm + TRAY_MM])]
+
+
+SPRING_MM, STOP_MM = 2.5, 1.5
+"""From a spring's coil, and from the rest stop, to the middle of the wheel's leads; judgement."""
+
+
+def _wheels_way(layout: Layout, place: Steering) -> list[Array]:
+    """Return the points (3,) of the leads of the wheel's motor: on the mount's front to the right, along the plate.
+
+    There they are as a string that is pulled tight, up the tail, ahead of the rest stop and of the spring, to the
+    strut between the axles, and along it until they are behind the trays.
+    """
+    stop, hub, begin, end = layout.stop, layout.hub_mm, *place.cradle_x_mm
+    front = place.at(end + LEADS_MM / 2.0, 0.0)
+    tail = place.at((begin + end) / 2.0 + TAB_MM / 2.0 + LEADS_MM, place.base_z_mm[1] + SLOT_EDGE_MM)
+    low, high = (stop.seat_mm + down * stop.along - STOP_MM * stop.behind for down in (STOP_PAD_MM / 2.0, 0.0))
+    strut, ahead = hub + np.array([EAR_MM, 0.0]), float(layout.tray_mm[0]) - layout.electronics.length_mm / 2.0
+    coil = hub + (layout.drive.spring.outer_diameter_mm / 2.0 + SPRING_MM) * direction(np.arange(0.0, 6.3, 0.2))
+    points = np.array([high, strut, *coil])
+    around = ConvexHull(points).vertices.tolist()  # counter-clockwise
+    around = np.roll(around, -around.index(0)).tolist()
+    flat = [tail, low, *points[around[: around.index(1) + 1]], np.array([ahead - AHEAD_MM, hub[1]])]
+    flat.append(flat[-1] + [0.0, layout.tray_mm[1] + layout.electronics.upper_tray_mm + TRAY_MM])
+    middle, y = float(place.T_body_axle[1, 3]), layout.lateral.inside[0] + BESIDE_MM
+    lateral = [middle, middle - place.half_mount_mm - BESIDE_MM, *[y] * len(flat)]
+    return [np.array([x, beside, z]) for (x, z), beside in zip([front, front, *flat], lateral, strict=True)]
 
 
 BELOW_SCREW_MM = 5.0
@@ -123,16 +150,9 @@ def battery_way(layout: Layout) -> Array:
 
 
 def outer_way(layout: Layout, part: str) -> list[Array]:
-    """Return the points (3,) that a part's leads pass until they are inside, at the trays: through the wire hole.
-
-    Those of the steering wheel's motor come to the right plate, behind what swings there.
-    """
+    """Return the points (3,) that a part's leads pass until they are inside, at the trays: through the wire hole."""
     way = way_in(layout, part)
-    if part == "steering motor":
-        x, _, z = way[0]
-        way += [np.array([x - BESIDE_MM, layout.lateral.inside[0] + BESIDE_MM, z])]
-        return way
-    if len(way) == 1:
+    if len(way) == 1 or part == "steering motor":
         return way
     place = layout.fittings.left_mm if plate_of(layout, part) == "left" else layout.fittings.right_mm
     x, z = wire_hole_mm(place)
@@ -145,12 +165,11 @@ def corners(layout: Layout, one: str, other: str, start: Array, end: Array) -> l
     """Return the corners (3,) between two points inside.
 
     At a plate a lead runs along it at the height of hole or switch, and down beside it; to the steering wheel's motor
-    it runs down behind the trays and straight along the plate; from board to board it crosses in the gap between them.
+    it crosses behind the trays; from board to board in the gap between them.
     """
     (x0, y0, z0), (x1, y1, z1) = start, end
     if other == "steering motor":
-        behind = float(layout.tray_mm[0]) - layout.electronics.length_mm / 2.0 - AHEAD_MM
-        return [np.array([behind, y0, z0]), np.array([behind, y1, z0])]
+        return [np.array([x1, y0, z0]), np.array([x1, y1, z0])]
     if plate_of(layout, one):
         return [np.array([x1, y0, z0]), np.array([x1, y0, z1])]
     if plate_of(layout, other):

@@ -14,6 +14,7 @@ from jumpcad.robot.electronics.leads import way_in
 from jumpcad.robot.layout import moving_obstacles
 from jumpcad.robot.load_case import load_case
 from jumpcad.robot.robot import Robot
+from jumpcad.robot.space.inside import hub_obstacles
 from jumpcad.robot.space.room import bar, clearance
 
 ROUND_OFF_V = 1e-9
@@ -179,20 +180,20 @@ FAR_MM = 100.0
 """Larger distances are not told apart."""
 LEADS_BASIS = {
     "wires_clear": Basis(
-        f"least distance of a lead's middle from what moves, along its way ≥ {NEEDED_MM:g} mm",
+        f"least distance of a lead's middle from what moves and from the springs, along its way ≥ {NEEDED_MM:g} mm",
         "geometry; judgement: a lead of 1.2 mm and a millimetre of air",
     )
 }
 
 
 def lead_findings(robot: Robot) -> Iterator[Finding]:
-    """Yield `wires_clear`: the least distance of the leads of sensor and motor from what moves."""
+    """Yield `wires_clear`: the least distance of leads of sensor and motors from what moves and from the springs."""
     layout = robot.layout
-    moving = moving_obstacles(layout)
+    moving = [*moving_obstacles(layout), *hub_obstacles(layout.hub_mm, layout.drive, layout.lateral, 0.0)[:2]]
     gaps: dict[str, float] = {}
     tray = layout.electronics.middle_mm(layout.tray_mm)
-    for role in ("sensor", "motor"):
-        way = way_in(layout, role)
+    for role in ("sensor", "motor", "steering motor"):
+        way = way_in(layout, role)[2 * (role == "steering motor") :]  # its place has room for them at the mount
         if len(way) < 2:
             continue
         ends = [*way, np.array([tray[0], way[-1][1], tray[1]])]
@@ -206,6 +207,6 @@ def lead_findings(robot: Robot) -> Iterator[Finding]:
         far = "at least " if gap == FAR_MM else ""
         yield at_least(
             "wires_clear", gap, NEEDED_MM, "mm",
-            f"the {role}'s leads pass {far}{gap:.1f} mm from what moves; {NEEDED_MM:g} mm are needed",
+            f"the {role}'s leads pass {far}{gap:.1f} mm from what moves and springs; {NEEDED_MM:g} mm are needed",
             LONGER_BODY,
         )  # fmt: skip

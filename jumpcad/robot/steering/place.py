@@ -44,6 +44,8 @@ TAB_MM = 10.0
 """Length of its tab in either plate; judgement: it bears the wheel's moment."""
 SLOT_EDGE_MM = 2.7
 """Material of the plates around the tab; judgement: a little more than around the trays'."""
+LEADS_MM = 1.5
+"""Ahead of the mount for the motor's leads, 1.2 mm thick and flat on its front; judgement."""
 TIE_MM = 1.1
 """Thickness of the cable tie below the motor."""
 FREE_MM = 1.0
@@ -107,6 +109,11 @@ class Steering(ByValue):
         """Half sizes of the motor, across and up: it lies on its broad side."""
         low, broad = sorted((self.motor.width_mm, self.motor.height_mm))
         return broad / 2.0, low / 2.0
+
+    @property
+    def half_mount_mm(self) -> float:
+        """Half of the mount's width around the motor."""
+        return self.half_motor_mm[0] + PLAY_MM + WALL_MM
 
     @property
     def base_z_mm(self) -> tuple[float, float]:
@@ -241,16 +248,17 @@ def _in_the_way(layout: Layout) -> Callable[[float], list[Obstacle]]:
 
 
 def _free_mm(layout: Layout, place: Steering, in_the_way: Callable[[float], list[Obstacle]]) -> float:
-    """Return the least distance of wheel, motor, mount and the plates around its tabs from what is in their way."""
+    """Return the least distance of wheel, motor, its leads, mount and the plates' tabs from what is in their way."""
     across, up = place.half_motor_mm
     begin, end = place.cradle_x_mm
-    middle, beside = float(place.T_body_axle[1, 3]), across + PLAY_MM + WALL_MM
+    middle, beside = float(place.T_body_axle[1, 3]), place.half_mount_mm
     low, high = place.base_z_mm
     tab, slot, wheel = (begin + end) / 2.0, TAB_MM / 2.0 + SLOT_EDGE_MM, place.radius_mm
     boxes = [
         (-max(place.shaft_mm, place.half_width_mm), place.half_width_mm, -wheel, wheel,
          (middle - wheel, middle + wheel)),
         (begin, end, -up - TIE_MM, high, (middle - beside, middle + beside)),
+        (end, end + LEADS_MM - FREE_MM, -up, up, (middle - beside, middle + across)),
         (tab - TAB_MM / 2.0, tab + TAB_MM / 2.0, low, high, layout.lateral.inside),
         (tab - slot, tab + slot, low - SLOT_EDGE_MM, high + SLOT_EDGE_MM, layout.lateral.outside),
     ]  # fmt: skip
