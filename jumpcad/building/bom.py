@@ -24,7 +24,7 @@ from jumpcad.workshop import Workshop
 
 ALWAYS = (
     "solder with flux core, 0.5 to 1 mm", "heat-shrink tube 4 mm, 0.1 m", "super glue (CA), thin", "isopropyl alcohol",
-    "grease, silicone or lithium", "light oil", "adhesive tape", "emery cloth", "spare cable ties 2.5 mm",
+    "grease, silicone or lithium", "light oil", "adhesive tape", "emery cloth", "20 spare cable ties 2.5 x 100 mm",
     "spare foam tape",
 )  # fmt: skip
 DUST = ("gloves", "mask (FFP2)", "sandpaper")

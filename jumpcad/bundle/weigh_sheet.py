@@ -6,6 +6,7 @@ from dataclasses import replace
 from jumpcad.errors import JumpcadError
 from jumpcad.files.reading import to_csv
 from jumpcad.mechanism.mass import combined
+from jumpcad.robot.electronics.leads import metres_by_colour
 from jumpcad.robot.robot import Robot
 from jumpcad.robot.springs.thing import CHOOSE
 from jumpcad.simulation import simulate
@@ -27,7 +28,7 @@ def weigh_sheet(robot: Robot) -> str:
             pieces[item.article, item.body].append(item.mass)
         else:
             others[item.article] += item.mass_kg  # such as a motor's shaft
-    rows, plain = [], _figures(robot)
+    rows, plain, cut = [], _figures(robot), metres_by_colour(robot.layout, robot.wiring)
     for (name, body), masses in pieces.items():
         together = combined(masses)
         if together.mass_kg < LEAST_KG:
@@ -37,8 +38,9 @@ def weigh_sheet(robot: Robot) -> str:
         heavier = _figures(replace(robot, bodies={**robot.bodies, body: replace(old, **vars(mass))}))
         both = zip(heavier, plain, strict=True) if heavier and plain else ()
         effect = [f"{1000.0 * (more - now):.2f}" for more, now in both] or ["", ""]
-        computed_g = f"{1000.0 * (together.mass_kg + others[name]):.2f}"
-        rows.append((name.removesuffix(CHOOSE), body, len(masses), computed_g, "", *effect))
+        kind, _, colour = name.rpartition(", ")[0].rpartition(", ")
+        words = f"{kind}, {colour}, cut {cut[colour]:.2f} m" if colour in cut else name.removesuffix(CHOOSE)
+        rows.append((words, body, len(masses), f"{1000.0 * (together.mass_kg + others[name]):.2f}", "", *effect))
     return to_csv([COLUMNS, *rows])
 
 

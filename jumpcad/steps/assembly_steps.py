@@ -37,7 +37,7 @@ class Move:
     """Things that take their place together, by the pattern of their names.
 
     They come `along` a side, `head last` for screws and pins, `from outside` for toes, `from the leg`, `into its notch`
-    for a hoop of the cage, or `sideways` for a clip: from any side that is free.
+    for a hoop of the cage, `into its mount`, or `sideways` for a clip: from any side that is free.
 
     `way` is how the path is checked. `straight`: along its whole length, on the shapes; `bent`: over the part's own
     size only, for split pins, which pliers bring; `snapped`: likewise, sideways onto a groove; `laid`: not at all, for
@@ -180,8 +180,9 @@ def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Arra
     own = chained(T_world_body, thing.T_body_mesh)[:3, :3]
     if move.along == "head last":
         return np.asarray(own[:, 2] * (-1.0 if _head_up(thing) else 1.0))
-    if move.along == "into its notch":
-        return -own[:, 1]
+    axes = {"into its notch": -own[:, 1], "into its mount": own[:, 0]}
+    if move.along in axes:
+        return axes[move.along]
     if move.along == "from outside":
         return np.asarray(own[:, 1] * (1.0 if thing.name == "toe_left" else -1.0))
     if move.along == "from the leg":

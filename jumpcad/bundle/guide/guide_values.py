@@ -19,6 +19,7 @@ from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.motor import window_mm
 from jumpcad.errors import JumpcadError
+from jumpcad.face import __version__
 from jumpcad.findings import errors
 from jumpcad.mechanism.model import BODY
 from jumpcad.robot.electronics.limits import jumps_per_charge
@@ -70,6 +71,7 @@ def guide_values(robot: Robot, steps: Sequence[Step], bill: Bill) -> Mapping[str
         | _jump(robot)
         | {
             "mass_g": 1000.0 * robot.mass_kg,
+            "version": __version__,
             "broken": [finding.name for finding in errors(limits_of(robot))],
             "number": dict.fromkeys((plan.key for plan in ORDER), "")
             | {step.key: str(number) for number, step in enumerate(steps, start=1)},

@@ -6,7 +6,6 @@ from collections import defaultdict
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from jumpcad.dimensions import STOP_PAD_MM, TRAY_MM
 from jumpcad.electronics.nets import AT, Terminal, Wiring
@@ -55,9 +54,8 @@ def _lead_mm(ways: Mapping[str, list[Array]], one: str, other: str) -> float:
     """
     if has_own_legs(one, other) or {one, other} == {"battery", "plug"}:
         return 0.0
-    way, length = (ways[one], ways[other]), SLACK_MM
-    for outside in way:
-        length += sum(math.dist(a, b) for a, b in itertools.pairwise(outside))
+    way = ways[one], ways[other]
+    length = SLACK_MM + sum(math.dist(a, b) for outside in way for a, b in itertools.pairwise(outside))
     length += float(np.abs(way[0][-1] - way[1][-1]).sum())
     length += APART_MM if one in APART or other in APART else 0.0
     return STEP_MM * math.ceil(length / STEP_MM - 1e-6)
@@ -95,30 +93,26 @@ def way_in(layout: Layout, role: str) -> list[Array]:
     return [np.array([x + seat.x_mm, seat.y_mm, z + seat.bottom_mm + TRAY_MM])]
 
 
-SPRING_MM, STOP_MM = 2.5, 1.5
+SPRING_MM, STOP_MM = 3.5, 1.5
 """From a spring's coil, and from the rest stop, to the middle of the wheel's leads; judgement."""
 
 
 def _wheels_way(layout: Layout, place: Steering) -> list[Array]:
-    """Return the points (3,) of the leads of the wheel's motor: on the mount's front to the right, along the plate.
+    """Return the points (3,) of the leads of the wheel's motor: on its mount's front to the right, and up the plate.
 
-    There they are as a string that is pulled tight, up the tail, ahead of the rest stop and of the spring, to the
-    strut between the axles, and along it until they are behind the trays.
+    There they pass ahead of the rest stop and below the spring to the strut between the axles, and along it.
     """
-    stop, hub, begin, end = layout.stop, layout.hub_mm, *place.cradle_x_mm
-    front = place.at(end + LEADS_MM / 2.0, 0.0)
+    stop, hub, (begin, end) = layout.stop, layout.hub_mm, place.cradle_x_mm
+    front, high = place.at(end + LEADS_MM / 2.0, 0.0), stop.seat_mm - STOP_MM * stop.behind
     tail = place.at((begin + end) / 2.0 + TAB_MM / 2.0 + LEADS_MM, place.base_z_mm[1] + SLOT_EDGE_MM)
-    low, high = (stop.seat_mm + down * stop.along - STOP_MM * stop.behind for down in (STOP_PAD_MM / 2.0, 0.0))
-    strut, ahead = hub + np.array([EAR_MM, 0.0]), float(layout.tray_mm[0]) - layout.electronics.length_mm / 2.0
-    coil = hub + (layout.drive.spring.outer_diameter_mm / 2.0 + SPRING_MM) * direction(np.arange(0.0, 6.3, 0.2))
-    points = np.array([high, strut, *coil])
-    around = ConvexHull(points).vertices.tolist()  # counter-clockwise
-    around = np.roll(around, -around.index(0)).tolist()
-    flat = [tail, low, *points[around[: around.index(1) + 1]], np.array([ahead - AHEAD_MM, hub[1]])]
-    flat.append(flat[-1] + [0.0, layout.tray_mm[1] + layout.electronics.upper_tray_mm + TRAY_MM])
-    middle, y = float(place.T_body_axle[1, 3]), layout.lateral.inside[0] + BESIDE_MM
-    lateral = [middle, middle - place.half_mount_mm - BESIDE_MM, *[y] * len(flat)]
-    return [np.array([x, beside, z]) for (x, z), beside in zip([front, front, *flat], lateral, strict=True)]
+    below = (layout.drive.spring.outer_diameter_mm / 2.0 + SPRING_MM) * direction(math.pi / 4.0)
+    back = float(layout.tray_mm[0]) - layout.electronics.length_mm / 2.0 - AHEAD_MM
+    up = float(layout.tray_mm[1]) + layout.electronics.upper_tray_mm + TRAY_MM
+    flat = [front, front, tail, high + STOP_PAD_MM / 2.0 * stop.along, high, hub + below]
+    flat += [np.array(at) for at in ((hub[0] + EAR_MM, hub[1]), (back, hub[1]), (back, up))]
+    middle = float(place.T_body_axle[1, 3])
+    aside = [middle, middle - place.half_mount_mm - BESIDE_MM, *[layout.lateral.inside[0] + BESIDE_MM] * 7]
+    return [np.array([x, y, z]) for (x, z), y in zip(flat, aside, strict=True)]
 
 
 BELOW_SCREW_MM = 5.0

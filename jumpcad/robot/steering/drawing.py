@@ -17,9 +17,10 @@ from jumpcad.parts.purchased import TIE, TIE_G, BoughtPart
 from jumpcad.robot.electronics.leads import lead_lengths
 from jumpcad.robot.layout import Layout
 from jumpcad.robot.robot import Robot
-from jumpcad.robot.steering.limits import steers
+from jumpcad.robot.steering.limits import LEAN_DEG, steers
 from jumpcad.robot.steering.place import (
     GROOVE_PLAY_MM,
+    LEADS_MM,
     PLAY_MM,
     SLOT_EDGE_MM,
     TAB_MM,
@@ -43,11 +44,11 @@ HUB_WALL_MM = 2.0
 WEB_MM = 1.6
 """Thickness of the wheel between hub and groove; judgement: eight layers of 0.2 mm."""
 HELD = 0.7
-"""Height of the walls beside the motor over its own; judgement: it snaps in from below and cannot roll out."""
+"""Height of the walls beside the motor over its own; judgement."""
 ROOT = 0.35
 """How far a plate's tail reaches from the leg's axle to the cam's; judgement: it is as wide there as at its tabs."""
-NOTCH_MM = 1.0
-"""Play of the gearhead's boss in the wall before it; judgement."""
+NOTCH_MM = 0.5
+"""Play of the gearhead's boss in the wall behind it, which keeps the motor from sliding out; judgement."""
 BACKWARDS = np.array([[0.0, 0, -1], [0, 1, 0], [1, 0, 0]])
 """Rotation of what is drawn along the axle: its z points backwards, its x up."""
 OVER = np.diag([1.0, -1.0, -1.0])
@@ -88,18 +89,17 @@ def _mount(place: Steering, layout: Layout, holes: HoleSizes) -> Stack:
     """Return the mount: its frame is the axle's, upside down, and z = 0 its base's upper face."""
     (begin, end), middle = place.cradle_x_mm, float(place.T_body_axle[1, 3])
     across, up = place.half_motor_mm
-    x, beside = (begin + end) / 2.0, across + PLAY_MM + WALL_MM
+    x, beside = (begin + end) / 2.0, place.half_mount_mm
     slots = [rectangle(TIE_SLOT_MM[::-1], (x, side * (beside + TIE_SLOT_MM[0] / 2.0))) for side in (-1.0, 1.0)]
     (low, high), (right, left) = layout.lateral.inside, layout.lateral.outside
-    play = holes.fits.sliding_mm
-    size = TAB_MM + 2.0 * SLOT_EDGE_MM, high - low - 2.0 * play
+    size = TAB_MM + 2.0 * SLOT_EDGE_MM, high - low - 2.0 * holes.fits.sliding_mm
     bridge = rectangle(size, (x, middle - (low + high) / 2.0), 1.0)
     tabs = rectangle((TAB_MM, left - right), (x, middle - (left + right) / 2.0))
     around = rectangle((end - begin, 2.0 * beside), (x, 0.0))
     base = union([bridge, tabs, around]) - union(slots)
     cavity = rectangle((end - begin - 2.0 * WALL_MM, 2.0 * (across + PLAY_MM)), (x, 0.0))
     boss = rectangle((2.0 * WALL_MM, place.motor.boss_mm + 2.0 * NOTCH_MM), (begin, 0.0))
-    leads = rectangle((3.0 * WALL_MM, 2.0 * across - 2.0 * WALL_MM), (end, 0.0))
+    leads = rectangle((3.0 * WALL_MM, 2.0 * across + WALL_MM), (end, 1.5 * WALL_MM))  # and to the right
     walls = around - union([cavity, boss, leads])
     return Stack.of([(0.0, place.base_mm, base), (place.base_mm, place.base_mm + 2.0 * HELD * up, walls)])
 
@@ -147,22 +147,16 @@ def steering_hardware(layout: Layout, workshop: Workshop) -> Iterator[BoughtPart
 
 def steering_words(robot: Robot) -> dict[str, Any] | None:
     """Return what the guide says of the wheel: articles and sizes (mm); None without one."""
-    place, motor = robot.layout.of(Steering), robot.workshop.steering.motor
+    place = robot.layout.of(Steering)
     if place is None:
         return None
-    leads = [mm for *_, end, _, mm in lead_lengths(robot.layout, robot.wiring) if end.part == "steering motor"]
+    does, toes_mm, cuts = steers(robot), 2.0 * robot.layout.toe_half_width_mm, lead_lengths(robot.layout, robot.wiring)
     return {
-        "motor": motor,
-        "ring": place.ring.description,
-        "shaft_mm": place.motor.shaft_mm,
-        "flat_mm": place.motor.shaft_flat_mm,
-        "shaft_length_mm": place.motor.shaft_length_mm,
-        "notch_mm": 2.0 * (place.half_motor_mm[0] - WALL_MM),
-        "lean_deg": steers(robot).lean_deg,
-        "wire_mm": max(leads),
-        "gap_mm": place.cradle_x_mm[0] - place.half_width_mm,
+        "place": place, "motor": place.motor, "does": does, "ahead_mm": LEADS_MM,
+        "wire_mm": max(mm for *_, end, _, mm in cuts if end.part == "steering motor"),
         "tread_mm": place.ring.section_mm - TREAD_MM,
-    }
+        "high_mm": [toes_mm * float(np.radians(lean)) for lean in (does.lean_deg, LEAN_DEG)],
+    }  # fmt: skip
 
 
 def _tie(place: Steering, x_mm: float) -> BoughtPart:
@@ -171,7 +165,7 @@ def _tie(place: Steering, x_mm: float) -> BoughtPart:
     slab = rectangle((2.5, 2.0 * across), (x_mm, 0.0))
     pose = chained(place.T_body_axle, pose_at(np.eye(3), (0.0, 0.0, -up - TIE_MM)))
     part = _bought("steering_tie", TIE, [(0.0, TIE_MM, slab)], pose, TIE_G / 2.0)
-    y, low, high = across + PLAY_MM + WALL_MM + TIE_MM / 2.0, -up - TIE_MM / 2.0, top + TIE_MM / 2.0
+    y, low, high = place.half_mount_mm + TIE_MM / 2.0, -up - TIE_MM / 2.0, top + TIE_MM / 2.0
     loop = np.array(
         [(x_mm, 0, low), (x_mm, y, low), (x_mm, y, high), (x_mm, -y, high), (x_mm, -y, low), (x_mm, 0, low)]
     )

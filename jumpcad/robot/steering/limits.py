@@ -14,7 +14,7 @@ from jumpcad.mechanism.mass import MassProperties, combined
 from jumpcad.mechanism.model import body_poses
 from jumpcad.robot.cage.limits import FALLS
 from jumpcad.robot.robot import Robot, decided_once
-from jumpcad.robot.steering.place import LEAST_MM, PLAY_MM, SLOT_EDGE_MM, TAB_MM, WALL_MM, Steering
+from jumpcad.robot.steering.place import LEAST_MM, SLOT_EDGE_MM, TAB_MM, Steering
 from jumpcad.transforms import Array, chained, direction, in_metres
 
 TURN_DEG = 90.0
@@ -89,12 +89,14 @@ BASIS = {
 class Steers:
     """What the wheel does on the workshop's floor with a battery of nominal voltage.
 
-    `loads_n` (3,) are those of front eye, wheel and toe, `lean_deg` how far the robot leans to that toe, `grip` the
-    wheel's over what it needs, `need_nm` its torque. Of the motor, `gears_nm` is what its gears bear, `empty_nm` what
-    it may give on an empty battery of `empty_v`, `stall_nm` and `free_rad_s` are its line of torque and speed.
+    `loads_n` (3,) are those of front eye, wheel and toe, `toes` the sides of that toe and the other, `lean_deg` how far
+    the robot leans to it, `grip` the wheel's over what it needs, `need_nm` its torque. Of the motor, `gears_nm` is what
+    its gears bear, `empty_nm` what it may give on an empty battery of `empty_v`, `stall_nm` and `free_rad_s` are its
+    line of torque and speed.
     """
 
     loads_n: Array
+    toes: tuple[str, str]
     lean_deg: float
     grip: float
     need_nm: float
@@ -142,9 +144,10 @@ def steers(robot: Robot) -> Steers:
     driven, empty = (supply.driven(place.motor, volts, math.inf) for volts in (supply.nominal_v, supply.empty_v))
     rise = (driven.stall_current_a - driven.no_load_current_a) / driven.stall_torque_nm
     return Steers(
-        loads, math.degrees(lean), float(loads[1]) * lever / slides, need, gears,
-        min(gears, EMPTY_SHARE * empty.stall_torque_nm), empty.voltage_v, driven.stall_torque_nm,
-        free_speed_rad_s(driven), supply.nominal_v * (driven.no_load_current_a + rise * need) + supply.boards_w,
+        loads, ("left", "right") if side > 0.0 else ("right", "left"), math.degrees(lean),
+        float(loads[1]) * lever / slides, need, gears, min(gears, EMPTY_SHARE * empty.stall_torque_nm),
+        empty.voltage_v, driven.stall_torque_nm, free_speed_rad_s(driven),
+        supply.nominal_v * (driven.no_load_current_a + rise * need) + supply.boards_w,
         place.dip_mm - place.miss_mm, place.turn_per_rev_deg,
     )  # fmt: skip
 
@@ -234,7 +237,7 @@ def _blow(robot: Robot, place: Steering) -> Iterator[Finding]:
     force = robot.mass_kg * GRAVITY_M_S2 + energy_nmm / shop.safety.landing_stop_mm
     allowed = shop.material("body").strength_in_plane_mpa / shop.safety.printed_factor
     aside = abs(float(place.T_body_axle[1, 3]) - sum(layout.lateral.inside) / 2.0)
-    beside = float(np.ptp(layout.lateral.inside)) / 2.0 + aside - place.half_motor_mm[0] - PLAY_MM - WALL_MM
+    beside = float(np.ptp(layout.lateral.inside)) / 2.0 + aside - place.half_mount_mm
     bends, twists = 3.0 * force * beside, 1.5 * force * sum(place.cradle_x_mm) / 2.0
     stress = math.hypot(bends, math.sqrt(3.0) * twists) / (WIDE_MM * place.base_mm**2)
     yield at_most(
