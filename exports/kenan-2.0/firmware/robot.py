@@ -12,7 +12,6 @@ PIN_STEER_LEFT = None  # of the steering wheel's motor; None: it has none
 PIN_STEER_RIGHT = None
 STEER_V = None  # what that motor gets from any battery
 STEER_MS_PER_DEG = None  # of a turn; to calibrate it, see README.md
-STEER_MAX_MS = None  # it is off after this at the latest
 PWM_HZ = 20000
 PWM_CAP = 1.0  # largest share of PWM: keeps gearbox and winding within their limits on a full battery
 BATTERY_DIVIDER = 2.0  # battery's voltage over that at its pin; to calibrate it, see README.md

@@ -194,7 +194,7 @@ class Wheel:
     """The steering wheel: it turns the robot by an angle, by time, while it is wound and nothing else moves.
 
     A turn ends with its time, on `stop`, on a low battery, and with the state `ready`: then motor and springs have
-    other things to do. `said` is what happened last.
+    other things to do. So does that of a blocked wheel: main.py takes 180 degrees at most. `said` is what happened last.
     """
 
     def __init__(self, winder):
@@ -216,7 +216,7 @@ class Wheel:
             return
         self._left = degrees > 0
         self.winder.is_low(now_ms, None)  # what was low before does not count
-        last = min(abs(degrees) * numbers.STEER_MS_PER_DEG, numbers.STEER_MAX_MS)
+        last = abs(degrees) * numbers.STEER_MS_PER_DEG
         self._until_ms = now_ms + int(last)
         self.said = "turning by %d degrees, %.1f s" % (degrees, last / 1000)
 
