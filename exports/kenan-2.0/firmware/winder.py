@@ -194,7 +194,7 @@ class Wheel:
     """The steering wheel: it turns the robot by an angle, by time, while it is wound and nothing else moves.
 
     A turn ends with its time, on `stop`, on a low battery, and with the state `ready`: then motor and springs have
-    other things to do. So does that of a blocked wheel: main.py takes 180 degrees at most. `said` is what happened last.
+    other things to do. So does that of a blocked wheel, after 180 degrees' time at most. `said` is what happened last.
     """
 
     def __init__(self, winder):
