@@ -180,9 +180,8 @@ def travel(robot: Robot, thing: Visual, move: Move, T_world_body: Array) -> Arra
     own = chained(T_world_body, thing.T_body_mesh)[:3, :3]
     if move.along == "head last":
         return np.asarray(own[:, 2] * (-1.0 if _head_up(thing) else 1.0))
-    axes = {"into its notch": -own[:, 1], "into its mount": own[:, 0]}
-    if move.along in axes:
-        return axes[move.along]
+    if move.along in ("into its notch", "into its mount"):
+        return -own[:, 1] if move.along == "into its notch" else own[:, 0]
     if move.along == "from outside":
         return np.asarray(own[:, 1] * (1.0 if thing.name == "toe_left" else -1.0))
     if move.along == "from the leg":
