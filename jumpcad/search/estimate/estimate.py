@@ -42,8 +42,7 @@ RIDGE = 1e-3
 FEW, FEW_MORE = 80, 10.0
 """Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
 LEAST, GROWTH = 8, 1.3
-"""Robots from which on figures are fitted; they are fitted anew where there are so many times more, or one was
-rejected."""
+"""Robots from which on figures are fitted: anew where there are so many times more, or one was rejected."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
 

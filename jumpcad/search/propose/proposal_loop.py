@@ -104,10 +104,9 @@ class ProposalLoop:
     def beside(
         self, trials: Sequence[Trial], admits: Callable[[Variant], bool], generator: np.random.Generator, far: bool
     ) -> Proposal | None:
-        """Return what lies near the best of some trials, or away from all robots, with the best estimate.
+        """Return what lies near the best of some trials, or `far` from all robots, with the best estimate.
 
-        None of a worse one than the best's; those `far` away, on other hills, may be a little worse. `admits` tells
-        which variants are new.
+        None of a worse one than the best's by more than `WITHIN`. `admits` tells which variants are new.
         """
         best, dry_run = best_trial(trials), self._ready
         if dry_run is None or best is None:
