@@ -36,7 +36,7 @@ from jumpcad.mechanism.model import BODY
 from jumpcad.robot.robot import Robot
 from jumpcad.simulation import simulate
 from jumpcad.steps.assembly_steps import ORDER, assembly_steps
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, own_workshop
 from jumpcad.workshop.varied import varied
 
 TEMPLATES = ("kenan-1.0", "kenan-2.0", "best-ga", "best-bo", "best-printable")
@@ -103,6 +103,8 @@ def test_every_workshop_and_every_part_that_can_be_chosen_has_a_guide() -> None:
         require_whole(built("kenan-2.0", name))
     for kit in shop.catalogue.kits:
         require_whole(of_kit(kit))
+    for name in ("best-compact", "best-jumper", "best-steered"):
+        require_whole(build(design(name), load_workshop(own_workshop(name)), name))
     for robot in (geared(), built("best-bo"), built(LONG_TOES), built("kenan-2.0", leg="carbon-strip-3x6")):
         require_whole(robot)
     for changed in (

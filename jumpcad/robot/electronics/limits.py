@@ -180,7 +180,7 @@ FAR_MM = 100.0
 """Larger distances are not told apart."""
 LEADS_BASIS = {
     "wires_clear": Basis(
-        f"least distance of a lead's middle from what moves and from the springs, along its way ≥ {NEEDED_MM:g} mm",
+        f"distance of a lead's middle, the wheel's from the tail on, from what moves and springs ≥ {NEEDED_MM:g} mm",
         "geometry; judgement: a lead of 1.2 mm and a millimetre of air",
     )
 }

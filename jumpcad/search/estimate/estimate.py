@@ -5,6 +5,7 @@ figures are fitted to the robots that were built so far, and a robot with these 
 the best, a dozen robots tell the score of others within a tenth, later within a hundredth.
 """
 
+import itertools
 import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -37,12 +38,12 @@ REACH = 0.25
 """Distance from the best, in scales of the space, at which a robot counts half as much; judgement."""
 LEARNED, SLACK = 2, 0.2
 """Robots that a limit has rejected, from which on its margins are fitted, and by how much a margin may be missed, in
-arcsinh of its typical size; after each robot in a row that this limit rejects, so much less; judgement."""
+arcsinh of its typical size; so much less after each of the last in a row that it rejected, up to four; judgement."""
 RIDGE = 1e-3
 FEW, FEW_MORE = 80, 10.0
 """Where the robots are fewer, the ridge of the second order is so many times larger: then they do not say it."""
 LEAST, GROWTH = 8, 1.3
-"""Robots from which on figures are fitted: anew where there are so many times more, or one was rejected."""
+"""Robots from which on figures are fitted: anew of so many times more, and after a rejected one and the next."""
 STATICS = ("tips", "too_weak")
 """Limits that a jump has margins of."""
 
@@ -91,7 +92,10 @@ class FittedFigures:
             if np.isfinite(margins).all():
                 size = typical_size(margins)
                 in_a_row = next((k for k, one in enumerate(evaluations[::-1]) if name not in one.missed), len(margins))
-                sizes[name], others[name] = (size, SLACK * (1.0 - in_a_row)), solver @ np.arcsinh(margins / size)
+                sizes[name], others[name] = (
+                    (size, SLACK * (1.0 - min(in_a_row, 4))),
+                    solver @ np.arcsinh(margins / size),
+                )
         return cls(positive, others, (_solver(plain, weights, units.shape[1]) @ laid).T, space.scale, sizes)
 
     def predict(self, unit: Array, laid: Mapping[str, float] | None) -> dict[str, float]:
@@ -161,8 +165,8 @@ class Estimator:
         """Fit the figures of the robots that were built, if there are enough new ones among some trials."""
         built = [] if self._space.varies_workshop else [one for one in trials if BUILT_FIGURE in one.evaluation.metrics]
         power = math.floor(math.log(len(built) / LEAST, GROWTH) + 1e-9) if len(built) >= LEAST else 0
-        rejected = (any(EQUALS not in name for name in one.evaluation.missed) for one in built)
-        last = max((number for number, one in enumerate(rejected, 1) if one), default=0)
+        rejected = [False, *(any(EQUALS not in name for name in one.evaluation.missed) for one in built)]
+        last = max((number for number, two in enumerate(itertools.pairwise(rejected), 1) if any(two)), default=0)
         rows = min(len(built), max(round(LEAST * GROWTH**power), last))
         if len(built) < LEAST or rows == self._rows:
             return

@@ -37,10 +37,9 @@ RUN_SEED = 1_000_000
 IDLE, IDLE_ALONE = 20, 25
 """The search ends after so many steps in a row that gain too little: where robots are estimated, and where not. After
 ten, one of two searches of everything that can be built had ended at 25 designs."""
-HOPELESS = 1e-8
-"""Of the best score: what a proposal promises that promises nothing; judgement."""
-STALLED = 4
-"""Steps in a row without a gain after which neighbours are evaluated, and other hills in turn; judgement."""
+HOPELESS, STALLED = 1e-8, 4
+"""Of the best score: what a proposal promises that promises nothing. Steps in a row without a gain after which
+neighbours are evaluated, and other hills in turn; judgement."""
 
 Proposer = Callable[[ProposalLoop, Sequence[Trial], int, np.random.Generator], list[Proposal]]
 """Makes the proposals of a step from what is learned from the trials, these, and their greatest number."""

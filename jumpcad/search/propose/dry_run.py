@@ -92,10 +92,8 @@ class DryRun:
         """
         if variant.key not in self._failures:
             laid, estimate = self.estimator.layout(variant), self.estimator(variant)
-            outcome: Evaluation | None = None
-            if isinstance(laid, Evaluation):
-                outcome = laid
-            elif estimate is not None and not (estimate.kept and estimate.score is not None):
+            outcome = laid if isinstance(laid, Evaluation) else None
+            if outcome is None and estimate is not None and not (estimate.kept and estimate.score is not None):
                 verdict, margins = "no_takeoff" if estimate.score is None else SCREENED, estimate.margins.items()
                 findings = [bare(name, "error" if margin < 0.0 else "info", margin, "") for name, margin in margins]
                 outcome = Evaluation(verdict, {}, tuple(findings))

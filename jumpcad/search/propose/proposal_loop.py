@@ -36,10 +36,9 @@ STEP = 0.02
 """Distance of a neighbour, in scales of the space; judgement: 0.8 % of a link's length, 1.4° of the toes' angle."""
 DRAWN, DRAWN_STEP = 8, 0.04
 """Points that are drawn besides, and how far away each coordinate typically is; judgement: ridges run aslant."""
-PARENTS, FAR_BRED, AWAY = 16, 6, 0.05
-"""Best estimates of which others are bred, for how many generations far from robots, and how far; judgement."""
-LAID_OUT = 16
-"""Points that are tried, of those with the best rough estimates; judgement."""
+PARENTS, FAR_BRED, AWAY, LAID_OUT = 16, 6, 0.05, 16
+"""Best estimates of which others are bred, for how many generations far from robots, and how far; points with the best
+rough estimates that are tried; judgement."""
 WITHIN = 0.005, 0.1
 """How much worse than the best's an estimate may be, near it and far away; judgement: near, what it is wrong by."""
 
@@ -114,7 +113,7 @@ class ProposalLoop:
         points = [] if far else neighbours(self._space, best, generator)
         points += [*self._bred(dry_run, FAR_BRED if far else 1, generator)]
         if far:
-            robots = np.array([self._space.to_unit(one.variant) for one in self._trials])
+            robots = np.array([*(self._space.to_unit(one.variant) for one in self._trials), *self._proposed])
             points = [one for one in points if np.abs(robots - one).max(axis=1).min() > AWAY]
         new = [(point, one) for point in points if admits(one := self._space.to_variant(point))]
         roughly = dry_run.rough([point for point, _ in new])

@@ -73,10 +73,16 @@ def dry_run_of(model=None, space=SPACE, phase="bo", asked=STAGE, prior=()):
 
 
 @pytest.mark.thorough
-def test_a_search_that_ended_early_and_more_cores_give_the_same_rows(trials, tmp_path):
+def test_a_search_that_ended_early_and_more_cores_give_the_same_rows(trials, tmp_path, monkeypatch):
     path = tmp_path / "again.db"
     search(path, replace(STAGE, evaluations=12))
     assert search(path, workers=2) == trials  # dry runs are shared too
+    longer = replace(STAGE, evaluations=18)  # which looks near the best and far from all robots in turn
+    monkeypatch.setattr("jumpcad.search.propose.bayesian.STALLED", 0)
+    monkeypatch.setattr("jumpcad.search.propose.proposal_loop.WITHIN", (1.0, 1.0))
+    whole = search(tmp_path / "beside.db", longer)
+    search(tmp_path / "cut.db", replace(longer, evaluations=14))
+    assert search(tmp_path / "cut.db", longer) == whole
 
 
 @pytest.mark.thorough
@@ -84,9 +90,9 @@ def test_a_search_with_estimates_ends_after_so_many_steps_in_a_row_without_a_gai
     """After four of them it looks beside the best."""
     idle, beside, longer = [], ProposalLoop.beside, replace(STAGE, evaluations=60, least_gain=0.2)
 
-    def counted(loop, trials, *others):
+    def counted(loop, trials, *others, far):
         idle.append(idle_steps(trials, 0.0, 0.2))
-        return beside(loop, trials, *others)
+        return beside(loop, trials, *others, far=far)
 
     monkeypatch.setattr(ProposalLoop, "beside", counted)
     trials = search(tmp_path / "end.db", longer)
