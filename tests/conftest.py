@@ -119,8 +119,8 @@ def built_once(assembled_robots: dict[object, Robot], monkeypatch: pytest.Monkey
     """Let a robot be assembled once for all tests that ask for this: they show what becomes of robots."""
 
     def asked(design: Design, workshop: Workshop, name: str, grown: Growth, before: Robot | None = None) -> object:
-        """Return what decides on a robot: what is taken from the one `before` is what would be made."""
-        return design.to_toml(), workshop.to_toml(), name, grown
+        """Return what decides on a robot and its limits: what is taken from the one `before` is what would be made."""
+        return design.to_toml(), workshop.to_toml(), name, grown, len(checks.CHECKS)
 
     monkeypatch.setattr(growth, "assembled", once_of(assembled_robots, growth.assembled, asked))
 

@@ -5,10 +5,10 @@ import re
 from pathlib import Path
 
 import pytest
-from support.built import built
 from typer.testing import CliRunner, Result
 
 from jumpcad import checks
+from jumpcad.building import build
 from jumpcad.bundle.limits import limit_values, limits_of
 from jumpcad.cli.commands import app
 from jumpcad.design import load_design
@@ -43,7 +43,8 @@ def test_rows_and_the_limits_left_out_are_all_that_count(cheap: None) -> None:
     every = json.loads(check("kenan-2.0", "--json").output)
     uses = {one["name"]: one["use"] for one in every["findings"] if one["name"] != "free_release"}  # a note
     assert held == every["limits"] == sum(use is None or use >= 0.1 for use in uses.values())
-    assert limit_values(limits_of(built("kenan-2.0")))["count"] == held  # as report.html says
+    robot = build(load_design("kenan-2.0"), load_workshop(), "kenan-2.0")
+    assert limit_values(limits_of(robot))["count"] == held  # as report.html says
     assert uses["supply_voltage_plug"] == pytest.approx(4.2 / 100.0)
 
 
