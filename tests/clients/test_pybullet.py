@@ -73,5 +73,4 @@ def test_the_program_of_the_docs_jumps_as_far(name: str, tmp_path: Path) -> None
     command = [sys.executable, "-c", program.replace("kenan-2.0", name).replace("1 / 2000", step) + "print(range_m)"]
     told = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout
     there = simulate(robot, engine="pybullet").ballistic_range_m
-    drift = 0.002 * (name == "best-compact")  # which docs/simulators.md tells
-    assert float(told.split()[-1]) == pytest.approx(there, rel=0.01 + drift)
+    assert float(told.split()[-1]) == pytest.approx(there, rel=0.01)
