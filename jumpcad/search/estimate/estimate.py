@@ -92,10 +92,8 @@ class FittedFigures:
             if np.isfinite(margins).all():
                 size = typical_size(margins)
                 in_a_row = next((k for k, one in enumerate(evaluations[::-1]) if name not in one.missed), len(margins))
-                sizes[name], others[name] = (
-                    (size, SLACK * (1.0 - min(in_a_row, 4))),
-                    solver @ np.arcsinh(margins / size),
-                )
+                sizes[name] = size, SLACK * (1.0 - min(in_a_row, 4))
+                others[name] = solver @ np.arcsinh(margins / size)
         return cls(positive, others, (_solver(plain, weights, units.shape[1]) @ laid).T, space.scale, sizes)
 
     def predict(self, unit: Array, laid: Mapping[str, float] | None) -> dict[str, float]:
