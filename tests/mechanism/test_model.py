@@ -23,7 +23,7 @@ def test_joints_are_a_tree_from_the_body_to_the_foot(mechanism: Mechanism) -> No
         (BODY, MAIN_LEG), (BODY, FRONT_LINK), (MAIN_LEG, FOOT),
     ]  # fmt: skip
     assert [mechanism.joint(name).name for name in ("leg", "front", "ankle")] == ["leg", "front", "ankle"]
-    assert all(joint.velocity_rad_s > 240.0 for joint in mechanism.joints)  # twice what best-compact's reach in PyBullet
+    assert all(joint.velocity_rad_s > 240.0 for joint in mechanism.joints)  # twice those of best-compact
     assert [joint.effort_nm for joint in mechanism.joints[1:]] == [0.0, 0.0]  # nothing drives them
 
 
