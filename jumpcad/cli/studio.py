@@ -1,6 +1,7 @@
 """`jumpcad studio`: sliders and the robot in a browser."""
 
 import os
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -46,7 +47,8 @@ def studio(
     print(f"{server.address}  (Ctrl-C ends the studio; the browser needs WebGL)")
     collect_seldom(False)
     try:
-        server.sleep_forever()
+        while True:
+            time.sleep(1.0)  # a signal that comes just before a sleep is seen after it
     finally:
         shown.end()
 

@@ -24,14 +24,16 @@ def test_a_bundle_whose_workshop_is_not_its_own_is_not_opened(monkeypatch: pytes
 def test_a_studio_is_started_and_ends_however_its_server_does(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     acts: list[str] = []
 
-    def interrupted() -> None:
+    def interrupted(sleep_s: float) -> None:
         acts.append("served")
+        assert sleep_s <= 1.0, "so long no signal is seen that came just before"
         raise KeyboardInterrupt
 
     def opened(*_: object) -> SimpleNamespace:
         return SimpleNamespace(start=lambda: acts.append("started"), end=lambda: acts.append("ended"))
 
-    server = SimpleNamespace(address="http://", sleep_forever=interrupted)
+    monkeypatch.setattr("jumpcad.cli.studio.time.sleep", interrupted)
+    server = SimpleNamespace(address="http://")
     monkeypatch.setitem(sys.modules, "jumpcad.studio", SimpleNamespace(Studio=opened))
     monkeypatch.setitem(sys.modules, "jumpcad.studio.server", SimpleNamespace(OwnServer=lambda _: server))
     assert run("studio", "best-bo")[0] == 130

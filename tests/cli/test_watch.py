@@ -23,7 +23,7 @@ def test_it_follows_a_search_until_it_ends(tmp_path, monkeypatch, capsys):
 
     running = threading.Thread(target=search)
     running.start()
-    while not is_written(path) or path.stat().st_size == 0:
+    while running.is_alive() and not (is_written(path) and path.stat().st_size):
         time.sleep(0.01)
     time.sleep(0.3)
     text = run("study", path, "--watch")

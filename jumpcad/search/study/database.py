@@ -149,7 +149,7 @@ def require_study(study: Path | None) -> None:
 def locked(path: Path) -> Iterator[None]:
     """Lock a study file, independently of SQLite's own locks, by a file beside it, which goes with the lock."""
     require_path(path)
-    lock = _lock(path)
+    lock = _lock(path, 0.2)  # s: `is_written` holds it for a moment
     try:
         require_own_sides(path)
         os.close(os.open(path, os.O_RDWR | os.O_CREAT, 0o644))
@@ -185,8 +185,8 @@ def is_written(path: Path) -> bool:
     return False
 
 
-def _lock(path: Path) -> FileLock:
-    return FileLock(os.path.realpath(path) + LOCK, timeout=0, thread_local=False)
+def _lock(path: Path, patience_s: float = 0.0) -> FileLock:
+    return FileLock(os.path.realpath(path) + LOCK, timeout=patience_s, thread_local=False)
 
 
 @contextmanager

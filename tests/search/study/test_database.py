@@ -7,6 +7,7 @@ import sqlite3
 import subprocess
 import sys
 import textwrap
+from threading import Timer
 
 import pytest
 from filelock import FileLock
@@ -72,6 +73,14 @@ def test_a_study_is_written_while_its_lock_is_held(tmp_path):
             pass
     assert not is_written(tmp_path / "s.db")
     assert [one.name for one in tmp_path.iterdir()] == ["s.db"]
+
+
+def test_who_looks_whether_a_study_is_written_keeps_no_search_out(tmp_path):
+    looks = FileLock(f"{tmp_path / 's.db'}.lock", thread_local=False)
+    looks.acquire()
+    Timer(0.05, looks.release).start()
+    with locked(tmp_path / "s.db"):
+        assert is_written(tmp_path / "s.db")
 
 
 def test_a_name_that_leaves_no_room_for_the_files_beside_it_is_one_line(tmp_path):
