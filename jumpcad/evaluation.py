@@ -89,7 +89,6 @@ class EvaluationResult(ByValue):
 
     @property
     def verdict(self) -> str:
-        """The jump's verdict."""
         return self.jump.verdict
 
     @property

@@ -115,7 +115,6 @@ class Way:
 
 
 def assembly_ways(robot: Robot) -> list[Way]:
-    """Return every move of every step."""
     poses = body_poses(robot)
     pieces = {thing.name: _piece(thing, poses[thing.body]) for thing in visuals(robot)}
     built: dict[str, list[Piece]] = {}

@@ -1,5 +1,6 @@
 """`--to X,Y` and `--course FILE`: where a robot that steers is sent, and what becomes of it."""
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -33,9 +34,12 @@ def target_of(to: str | None, course: Path | None) -> "float | tuple[float, ...]
         found = tuple(float(one) for one in to.split(","))
     except ValueError:
         found = ()
-    if len(found) not in (1, 2) or not all(abs(one) <= FARTHEST_M for one in found) or not any(found):
-        raise JumpcadError(f"--to {to}: must be x and y in metres, as 3,0, or a distance, as 3; at most {FARTHEST_M:g}")
-    return found if len(found) == 2 else abs(found[0])
+    far_m = math.hypot(*found)
+    if len(found) > 2 or found == (-far_m,) or not 0.0 < far_m <= FARTHEST_M:
+        raise JumpcadError(
+            f"--to {to}: must be x and y in metres, as 3,0, or a distance above 0, as 3; at most {FARTHEST_M:g}"
+        )
+    return found if len(found) == 2 else found[0]
 
 
 def recorded(robot: "jumpcad.Robot", row: int | None, to: str | None, course: Path | None) -> "Series | Trip | None":

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 PlotsOption = Annotated[File, option("Write pictures (SVG and PNG) into this folder.", "FOLDER", file_okay=False)]
 KEYWORD = inspect.Parameter.KEYWORD_ONLY
 OBJECTIVES = (
-    "body_lengths, touchdown, rest, fitness, range, rise, range-per-joule, range-per-spring-joule, jumps-per-joule, "
-    "metres-per-charge, or an own function of a jump's figures."
+    "body_lengths, touchdown, robust, rest, fitness, range, rise, range-per-joule, range-per-spring-joule, "
+    "jumps-per-joule, metres-per-charge, or an own function of a jump's figures."
 )
 USUAL = "body_lengths; fitness of robots that are not printed"
 BOUND = "Search a parameter, or a value of the workshop, in a range; study: within the study's bounds."

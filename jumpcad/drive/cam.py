@@ -170,7 +170,6 @@ class Cam:
 
     @property
     def law(self) -> CamLaw:
-        """The law of the lift."""
         return self.geometry.law
 
     @property

@@ -57,7 +57,6 @@ class Net:
 
     @property
     def colour(self) -> str:
-        """Colour of its wires."""
         return COLOURS[self.kind]
 
     @property

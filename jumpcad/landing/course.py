@@ -80,7 +80,6 @@ class Trip(Row):
 
     @property
     def time_s(self) -> float:
-        """Time of all moves."""
         return sum(one.time_s for one in self.hops)
 
     @property
@@ -98,12 +97,10 @@ class Going:
 
     @property
     def arrived(self) -> int:
-        """How many tries arrived."""
         return sum(one.arrived for one in self.trips)
 
     @property
     def share_arrived(self) -> float:
-        """Share of the tries that arrived."""
         return self.arrived / len(self.trips)
 
     def quantiles(self, name: str) -> tuple[float, float, float] | None:

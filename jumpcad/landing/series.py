@@ -54,7 +54,6 @@ class Row:
 
     @property
     def way_m(self) -> float:
-        """The way of all jumps (m)."""
         return sum(hop.way_m for hop in self.hops)
 
 

@@ -49,9 +49,7 @@ def capsule_robot(design: Design) -> Mechanism:
         If the design was changed to invalid values.
     """
     design = design.revalidated()
-    l1, l2, l3, l4, l5 = (
-        length / 1000.0 for length in (design.l1_mm, design.l2_mm, design.l3_mm, design.l4_mm, design.l5_mm)
-    )
+    l1, l2, l3, l4, l5 = (getattr(design, f"l{number}_mm") / 1000.0 for number in range(1, 6))
     radius = design.l_max_mm / 1000.0 / LENGTH_PER_RADIUS
     angle = math.pi - math.radians(design.ground_link_angle_deg)
     left, right = (l5 * np.array([math.cos(angle), side * math.sin(angle), 0.0]) for side in (1.0, -1.0))

@@ -86,7 +86,6 @@ class Layout:
 
     @property
     def design(self) -> Design:
-        """The eight numbers."""
         return self.linkage.design
 
     def of(self, kind: type[Placed]) -> Placed | None:

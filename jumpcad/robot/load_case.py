@@ -86,7 +86,6 @@ class LoadCase:
 
     @property
     def layout(self) -> Layout:
-        """Where everything is."""
         return self.robot.layout
 
     @property
@@ -211,7 +210,6 @@ class LoadCase:
 
 @decided_once
 def load_case(robot: Robot) -> LoadCase:
-    """Return a robot under load."""
     return LoadCase(robot)
 
 

@@ -6,7 +6,7 @@ names evenly.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -29,6 +29,11 @@ from jumpcad.workshop.varied import Value
 ROOM_UP_TO_RAD = math.radians(75.0)
 """Directions of the springs' pin up to which there mostly is room; judgement: in 60 robots of the default bounds the
 cam begins at 40 to 80°."""
+THINGS = {
+    "cage": ("rod", "glass-1.5", ("cage.", "cage_")),
+    "steering": ("wheel", "o-ring", ("steering.", "steering_", "turn_per_rev_deg", "turn_energy_j")),
+}
+"""What a workshop may lack: the key that brings it, a value, and how names begin that are of it alone."""
 STUDY = "study"
 """What `--bound` takes for the bounds of the study."""
 
@@ -45,6 +50,15 @@ def _with_springs(workshop: Workshop, lowest_deg: float) -> dict[str, SearchPara
     reached = rest_angles_deg(stock, math.radians(workshop.spring.preload_deg), anywhere)
     angles = [one for one in reached if one >= lowest_deg]
     return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
+
+
+def require_things(workshop: Workshop, changed: Collection[str], names: Sequence[str]) -> None:
+    """Require that a workshop, or what is changed in it, has what names of values, figures and limits are of."""
+    for thing, (key, value, beginnings) in THINGS.items():
+        has = f"{thing}.{key}" in changed or getattr(getattr(workshop, thing), key) not in ("", "none")
+        if not has and (named := [one for one in names if one.startswith(beginnings)]):
+            fix = f"fix {thing}.{key} too, {thing}.{key}={value}"
+            raise JumpcadError(f"{named[0]}: the workshop has no {thing}: {fix}")
 
 
 def apart(
@@ -121,12 +135,8 @@ class Space:
         if within_percent is not None and not 0 < within_percent <= 100:
             raise JumpcadError(f"within {within_percent:g} % is outside 0…100 %: a share of each parameter's range")
         changed = changed_parameters(fixed, bounds, choices, workshop)
-        lacks = {"cage": ("rod", "glass-1.5")} if workshop and not workshop.cage.rod else {}
-        lacks |= {"steering": ("wheel", "o-ring")} if workshop and workshop.steering.wheel == "none" else {}
-        for thing, (key, value) in lacks.items():
-            if f"{thing}.{key}" not in changed and (named := [one for one in changed if one.startswith(f"{thing}.")]):
-                fix = f"fix {thing}.{key} too, {thing}.{key}={value}"
-                raise JumpcadError(f"{named[0]}: the workshop has no {thing}: {fix}")
+        if workshop:
+            require_things(workshop, changed, list(changed))
         centre = dict(zip(PARAMETERS, around.to_vector(), strict=True)) if around else {}
         parameters, lowest_deg = [], usual["rest_angle_deg"].lower
         with_springs = _with_springs(workshop, lowest_deg) if workshop and "bought.spring" not in changed else {}

@@ -114,6 +114,10 @@ def test_trajectory_file(command: Run, tmp_path: Path, suffix: str) -> None:
         (["kenan-2.0", "--jumps", "2", "--flight"], "--flight and --jumps 2 exclude each other"),
         (["kenan-2.0", "--seed", "3"], "--seed 3: is that of --uncertain, --landing, --jumps, --to"),
         (["kenan-2.0", "--to", "3;0"], "--to 3;0: must be x and y in metres, as 3,0, or a distance"),
+        (
+            ["kenan-2.0", "--to", "-3"],
+            "--to -3: must be x and y in metres, as 3,0, or a distance above 0, as 3; at most",
+        ),
         (["kenan-2.0", "--to", "nan,1"], "--to nan,1: must be x and y in metres"),
         (["kenan-2.0", "--to", "3,0", "--jumps", "2"], "--to 3,0 and --jumps 2 exclude each other"),
         (["kenan-2.0", "--to", "3,0", "--course", "c.toml"], "--to 3,0 and --course c.toml exclude each other"),

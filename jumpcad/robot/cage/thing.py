@@ -50,7 +50,6 @@ SLOT_BELOW_MM = 4.5
 
 
 def cage_bars(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
-    """Yield both cross bars."""
     cage, holes = layout.of(Cage), HoleSizes.of(workshop, layout.hub_bearing)
     if cage is None:
         return

@@ -48,7 +48,6 @@ def foot_and_toes(layout: Layout, workshop: Workshop) -> list[Drawing]:
 
 
 def foot(layout: Layout, workshop: Workshop) -> Drawing:
-    """Return the foot."""
     holes = HoleSizes.of(workshop, layout.hub_bearing)
     sections, l4 = layout.sections, layout.design.l4_mm
     depth, lug = sections.foot_depth_mm, sections.lug_thickness_mm

@@ -70,7 +70,6 @@ class Toe:
 
 
 def toes(layout: Layout) -> tuple[Toe, Toe]:
-    """Return the left and the right toe."""
     left, right = (_toe(layout, name, sign) for name, sign in (("toe_left", 1.0), ("toe_right", -1.0)))
     return left, right
 

@@ -29,7 +29,6 @@ FILLET_MM = 3.0
 
 
 def legs(layout: Layout, workshop: Workshop) -> list[Drawing]:
-    """Return main leg and front link."""
     return [*main_leg(layout, workshop), front_link(layout, workshop)]
 
 

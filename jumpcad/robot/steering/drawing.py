@@ -56,7 +56,6 @@ OVER = np.diag([1.0, -1.0, -1.0])
 
 
 def steering_parts(layout: Layout, workshop: Workshop) -> Iterator[Drawing]:
-    """Yield the wheel and the mount."""
     place, holes = layout.of(Steering), HoleSizes.of(workshop, layout.hub_bearing)
     if place is None:
         return

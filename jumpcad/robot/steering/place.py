@@ -86,12 +86,10 @@ class Steering(ByValue):
 
     @property
     def groove_mm(self) -> float:
-        """Diameter of the groove's floor."""
         return 2.0 * (self.radius_mm - self.ring.section_mm)
 
     @property
     def half_width_mm(self) -> float:
-        """Half of the wheel's width."""
         return (self.ring.section_mm + GROOVE_PLAY_MM) / 2.0 + FLANGE_MM
 
     @property

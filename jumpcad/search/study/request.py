@@ -18,11 +18,12 @@ from jumpcad.search import methods
 from jumpcad.search.fronts import ELECTRICAL_ENERGY, SPRING_ENERGY, Cost, find_cost
 from jumpcad.search.methods import FRONTS, METHODS, NAMES, PAPER, SEQUENCES, STAGES, Method
 from jumpcad.search.models import COSTLY, PrintedModel, RobotModel
-from jumpcad.search.space import Space
+from jumpcad.search.space import Space, require_things
 from jumpcad.search.study.code_hash import versions
 from jumpcad.search.study.objective import Objective, find_objective
 from jumpcad.search.study.trial import Trial
 from jumpcad.search.study.variant import Variant
+from jumpcad.workshop import load_workshop
 
 MOST_EVALUATIONS = 1_000_000
 """About a day of one core, at 80 ms an evaluation (docs/speed.md)."""
@@ -66,10 +67,13 @@ class Request:
             usual = "range" if self.is_front else self.model.default_objective
             aim = find_objective(usual if aim is None else aim)
             object.__setattr__(self, "objective", aim)
+        of_workshop = {one.name for one in self.space.of_workshop}
         if isinstance(self.model, PrintedModel):
             learns = self.model.stand_in or self.screen or self.method not in ("ga", "nsga2")
             scored = tuple(name for name in COSTLY if aim.uses(name, self.model.figure_names))
             object.__setattr__(self, "model", replace(self.model, stand_in=learns, scored=scored))
+            required = [one.name for one in self.model.requirements]
+            require_things(self.model.workshop or load_workshop(), of_workshop, required)
         for name, value, least, most in (
             ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
             ("batch", self.batch, 1, MOST_EVALUATIONS),
@@ -84,7 +88,6 @@ class Request:
             self.cost.figure.require(self.model.figure_names, "against")
         if self.is_front and self.cost.figure is self.aim:
             raise JumpcadError(f"against = {self.against!r} is the objective itself: name another figure")
-        of_workshop = {one.name for one in self.space.of_workshop}
         if self.is_front and self.cost is SPRING_ENERGY and "bought.spring" in of_workshop:
             raise JumpcadError("bought.spring: a front against spring energy takes springs made to order; leave it out")
         for name, takes in TAKE.items():

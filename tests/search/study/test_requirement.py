@@ -15,13 +15,16 @@ from jumpcad.evaluation import FIGURES, JUMP_FIGURES
 from jumpcad.findings import errors
 from jumpcad.landing.landing import land
 from jumpcad.search.models import COSTLY, robot_model
+from jumpcad.search.space import Space
 from jumpcad.search.study import summary
 from jumpcad.search.study.objective import Evaluation
+from jumpcad.search.study.request import Request
 from jumpcad.search.study.requirement import Requirement, requirements_of, violations
 from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import floors
+from jumpcad.workshop import load_workshop
 
 
 def test_texts_say_the_least_and_the_most_of_a_figure() -> None:
@@ -60,6 +63,21 @@ def test_requirements_on_one_figure_are_their_intersection() -> None:
     assert requirements_of(texts, FIGURES) == requirements_of(["-10<=turn_deg<=30", "mass_kg<=0.2"], FIGURES)
     with pytest.raises(JumpcadError, match=r"turn_deg: at least 40 and at most 30 cannot both hold"):
         requirements_of(["turn_deg<=30", "turn_deg>=40"], FIGURES)
+
+
+@pytest.mark.parametrize(
+    ("asked", "thing", "key"),
+    [("cage_ahead>=0.02", "cage", "cage.rod=glass-1.5"), ("turn_per_rev_deg>=10", "steering", "steering.wheel=o-ring"),
+     ("steering_tail>=0", "steering", "steering.wheel=o-ring"), ("turn_energy_j<=9", "steering", "steering.wheel=o-ring")],
+)  # fmt: skip
+def test_what_is_required_of_cage_or_wheel_needs_one(asked: str, thing: str, key: str) -> None:
+    """Else it would count as kept by robots that have none."""
+    model = robot_model("printed", load_workshop()).requiring([asked])
+    told = f"^{asked.split('>')[0].split('<')[0]}: the workshop has no {thing}: fix {key.split('=')[0]} too, {key}$"
+    with pytest.raises(JumpcadError, match=told):
+        Request(Space.make(workshop=model.workshop), model)
+    Request(Space.parse(fix=[key], workshop=model.workshop), model)
+    assert Request(Space.make(workshop=model.workshop), model.requiring(["turn_deg<=90"])).model.requires("turn_deg")
 
 
 def test_margins_are_the_distance_to_each_limit() -> None:
