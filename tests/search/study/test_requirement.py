@@ -68,7 +68,8 @@ def test_requirements_on_one_figure_are_their_intersection() -> None:
 @pytest.mark.parametrize(
     ("asked", "thing", "key"),
     [("cage_ahead>=0.02", "cage", "cage.rod=glass-1.5"), ("turn_per_rev_deg>=10", "steering", "steering.wheel=o-ring"),
-     ("steering_tail>=0", "steering", "steering.wheel=o-ring"), ("turn_energy_j<=9", "steering", "steering.wheel=o-ring")],
+     ("steering_tail>=0", "steering", "steering.wheel=o-ring"),
+     ("turn_energy_j<=9", "steering", "steering.wheel=o-ring")],
 )  # fmt: skip
 def test_what_is_required_of_cage_or_wheel_needs_one(asked: str, thing: str, key: str) -> None:
     """Else it would count as kept by robots that have none."""
