@@ -6,7 +6,7 @@ names evenly.
 """
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self
@@ -52,13 +52,16 @@ def _with_springs(workshop: Workshop, lowest_deg: float) -> dict[str, SearchPara
     return found | ({angle: SearchParameter(angle, float(angles[0]), float(angles[-1]))} if len(angles) > 1 else {})
 
 
-def require_things(workshop: Workshop, changed: Collection[str], names: Sequence[str]) -> None:
-    """Require that a workshop, or what is changed in it, has what names of values, figures and limits are of."""
+def require_things(
+    workshop: Workshop, changed: Mapping[str, SearchParameter], names: Sequence[str], surely: bool = False
+) -> None:
+    """Require that a workshop, with what is changed in it, may have what names are of, or has it `surely`."""
     for thing, (key, value, beginnings) in THINGS.items():
-        has = f"{thing}.{key}" in changed or getattr(getattr(workshop, thing), key) not in ("", "none")
-        if not has and (named := [one for one in names if one.startswith(beginnings)]):
-            fix = f"fix {thing}.{key} too, {thing}.{key}={value}"
-            raise JumpcadError(f"{named[0]}: the workshop has no {thing}: {fix}")
+        place = f"{thing}.{key}"
+        values = changed[place].names if place in changed else (getattr(getattr(workshop, thing), key),)
+        lacks = {"", "none"} & set(values) and (surely or place not in changed)
+        if lacks and (named := [one for one in names if one.startswith(beginnings)]):
+            raise JumpcadError(f"{named[0]}: the workshop has no {thing}: fix {place} too, {place}={value}")
 
 
 def apart(

@@ -67,13 +67,13 @@ class Request:
             usual = "range" if self.is_front else self.model.default_objective
             aim = find_objective(usual if aim is None else aim)
             object.__setattr__(self, "objective", aim)
-        of_workshop = {one.name for one in self.space.of_workshop}
+        of_workshop = {one.name: one for one in self.space.of_workshop}
         if isinstance(self.model, PrintedModel):
             learns = self.model.stand_in or self.screen or self.method not in ("ga", "nsga2")
             scored = tuple(name for name in COSTLY if aim.uses(name, self.model.figure_names))
             object.__setattr__(self, "model", replace(self.model, stand_in=learns, scored=scored))
             required = [one.name for one in self.model.requirements]
-            require_things(self.model.workshop or load_workshop(), of_workshop, required)
+            require_things(self.model.workshop or load_workshop(), of_workshop, required, surely=True)
         for name, value, least, most in (
             ("evaluations", self.evaluations, 1, MOST_EVALUATIONS),
             ("batch", self.batch, 1, MOST_EVALUATIONS),

@@ -77,6 +77,9 @@ def test_what_is_required_of_cage_or_wheel_needs_one(asked: str, thing: str, key
     told = f"^{asked.split('>')[0].split('<')[0]}: the workshop has no {thing}: fix {key.split('=')[0]} too, {key}$"
     with pytest.raises(JumpcadError, match=told):
         Request(Space.make(workshop=model.workshop), model)
+    either = key.replace("=", "=none," if thing == "steering" else "=,")
+    with pytest.raises(JumpcadError, match=told):
+        Request(Space.parse(choose=[either], workshop=model.workshop), model)
     Request(Space.parse(fix=[key], workshop=model.workshop), model)
     assert Request(Space.make(workshop=model.workshop), model.requiring(["turn_deg<=90"])).model.requires("turn_deg")
 
