@@ -196,7 +196,7 @@ def test_sizes_are_those_of_the_parts() -> None:
     for name in ("cam_spacer_left", "idler_spacer_right"):
         assert values(two)["tube_mm"][name] == pytest.approx(float(part(two, name).mesh.extents[2]), abs=0.001)
     socket, cap = (placed(robot, name).bounds[:, 1] for name in ("body_plate_right", "motor_cap"))
-    assert 0.0 < cap[0] - socket[1] < 0.4  # the cap lies on the motor, which stands so far above the rim
+    assert found["clamp_mm"] == pytest.approx(cap[0] - socket[1], abs=1e-3)  # the cap lies on the motor
     plates = [placed(robot, f"body_plate_{side}").bounds[:, 1] for side in ("left", "right")]
     assert found["axle_length_mm"] == pytest.approx(float(np.ptp(plates)), abs=1e-3)
     window, block = found["window_mm"], found["block_mm"]

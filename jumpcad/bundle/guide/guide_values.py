@@ -15,7 +15,7 @@ from jumpcad.bundle.facts import PAIR_PERCENT, arms_off_deg, early_torque_share,
 from jumpcad.bundle.guide.operation_values import operation_values
 from jumpcad.bundle.guide.order_values import ROD_SHORT_MM, order_values
 from jumpcad.bundle.limits import limits_of
-from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2
+from jumpcad.dimensions import AXLE_END_PLAY_MM, GRAVITY_M_S2, MOTOR_CLAMP_MM
 from jumpcad.drive import TorsionSpring
 from jumpcad.drive.motor import window_mm
 from jumpcad.errors import JumpcadError
@@ -137,7 +137,7 @@ def _sizes(robot: Robot) -> dict[str, Any]:
         "articles": articles, "tube_mm": heights, "axle_mm": robot.layout.axle_mm, "axle_length_mm": high - low,
         "pin_hole_mm": robot.layout.pin_hole.diameter_mm, "felt": robot.layout.sensor,
         "left_plate_mm": float(np.ptp(robot.layout.lateral.left_plate)),
-        "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM),
+        "end_play_mm": (2.0 * AXLE_END_PLAY_MM, 2.0 * AXLE_END_PLAY_MM + ROD_SHORT_MM), "clamp_mm": MOTOR_CLAMP_MM,
         "window_mm": window, "block_mm": (window[0] + 2.0 * _prong_mm(robot), window[1] + PRONG_ENDS_MM),
         "m3_nm": TORQUE_M3_NM, "m2_nm": TORQUE_M2_NM, "plastic_nm": TORQUE_PLASTIC_NM, "press_n": PRESS_N,
         "dog_play_deg": math.degrees(robot.layout.drive.dog.play_rad), "cam_turn": both[1],

@@ -24,7 +24,7 @@ from jumpcad.search.study.store import StudyStore
 from jumpcad.search.study.trial import Trial
 from jumpcad.settings import Settings
 from jumpcad.simulation.prior import floors
-from jumpcad.workshop import load_workshop
+from jumpcad.workshop import load_workshop, varied
 
 
 def test_texts_say_the_least_and_the_most_of_a_figure() -> None:
@@ -67,10 +67,8 @@ def test_requirements_on_one_figure_are_their_intersection() -> None:
 
 @pytest.mark.parametrize(
     ("asked", "thing", "key"),
-    [("cage_ahead>=0.02", "cage", "cage.rod=glass-1.5"), ("turn_per_rev_deg>=10", "steering", "steering.wheel=o-ring"),
-     ("steering_tail>=0", "steering", "steering.wheel=o-ring"),
-     ("turn_energy_j<=9", "steering", "steering.wheel=o-ring")],
-)  # fmt: skip
+    [("cage_ahead>=0.02", "cage", "cage.rod=glass-1.5"), ("turn_energy_j<=9", "steering", "steering.wheel=o-ring")],
+)
 def test_what_is_required_of_cage_or_wheel_needs_one(asked: str, thing: str, key: str) -> None:
     """Else it would count as kept by robots that have none."""
     model = robot_model("printed", load_workshop()).requiring([asked])
@@ -82,6 +80,18 @@ def test_what_is_required_of_cage_or_wheel_needs_one(asked: str, thing: str, key
         Request(Space.parse(choose=[either], workshop=model.workshop), model)
     Request(Space.parse(fix=[key], workshop=model.workshop), model)
     assert Request(Space.make(workshop=model.workshop), model.requiring(["turn_deg<=90"])).model.requires("turn_deg")
+
+
+def test_all_that_robots_with_cage_and_wheel_alone_have_needs_them() -> None:
+    design, shop = load_design("best-steered"), load_workshop("best-steered")
+    bare = varied(shop, {"cage.rod": "", "steering.wheel": "none"})
+    found = [robot_model("printed", one)(design) for one in (shop, bare)]
+    has, lacks = ({*one.metrics, *one.margins} for one in found)
+    assert len(has - lacks) > 20
+    for name in has - lacks:
+        model = robot_model("printed", bare).requiring([f"{name}>=0"])
+        with pytest.raises(JumpcadError, match=f"^{name}: the workshop has no (cage|steering): fix"):
+            Request(Space.make(workshop=bare), model)
 
 
 def test_margins_are_the_distance_to_each_limit() -> None:
